@@ -152,30 +152,41 @@ void report_for_level_ice(const JsonValue& ship, const ReportAt& report_at) {
   const auto require = [&](std::string_view path, std::string_view allowed) {
     if (!has(path)) report_at(path, "nothing", std::string(allowed));
   };
+  const bool has_dimensions = has("hull.length_m") && has("hull.beam_m") && has("hull.draught_m");
+  const bool has_form = has_dimensions && has("hull.block_coefficient");
   if (has("hull.waterline_m")) {
     report_at("hull.waterline_m", "a waterline point by point",
               "length_m, beam_m and entrance_angle_deg, which the formulas and the course need");
   } else if (may_hold(ship, "hull")) {
     require("hull.length_m", "the length of the waterline, a number ≥ 0.1, ≤ 1000 [m]");
     require("hull.beam_m", "the beam of the waterline, a number ≥ 0.1, ≤ 1000 [m]");
-    require("hull.entrance_angle_deg",
-            "a number ≥ 1, ≤ 89 [°]; it is estimated where length, beam, draught and block coefficient are known");
+    if (has_form) require("hull.entrance_angle_deg", "a number ≥ 1, ≤ 89 [°]; the estimate does not cover this hull");
   }
   if (may_hold(ship, "hull")) {
     require("hull.draught_m", "a number > 0, ≤ 1000 [m]: the formulas and the course in level ice need it");
-    if (!has("mass_kg"))
+    if (!has("mass_kg") && !has("propulsion.engine.open_water_speed_m_per_s"))
       require("hull.block_coefficient",
-              "a number ≥ 0.2, ≤ 1, or mass_kg; it is estimated where dimensions and the open-water speed are known");
+              "one of three particulars: hull.block_coefficient (≥ 0.2, ≤ 1), mass_kg, or "
+              "propulsion.engine.open_water_speed_m_per_s (> 0, ≤ 30 m/s); each of them suffices to estimate what else "
+              "is missing");
+    else if (!has("mass_kg") && has_dimensions)
+      require("hull.block_coefficient",
+              "a number ≥ 0.2, ≤ 1, or mass_kg; the estimate from the open-water speed does not cover this hull");
+    else if (const JsonValue* mass = ship.find("mass_kg", JsonKind::kNumber); mass && has_dimensions && !has_form)
+      report_at("mass_kg", fmt::format("{:g}", mass->number()),
+                "a mass that gives a block coefficient of 0.2 to 1 with length, beam and draught");
   }
   if (has("mooring")) report_at("mooring", "a mooring", "none: the ship sails");
   const JsonValue* propulsion = ship.find("propulsion", JsonKind::kObject);
   if (propulsion && !propulsion->members().empty() && !propulsion->find("engine"))
     return report_at(kEngineKey, "nothing", "an engine, by which is known what the ship can push with");
   if (!may_hold(ship, "propulsion") || !may_hold(ship, kEngineKey)) return;
-  if (!has("propulsion.engine.bollard_pull_kN"))
+  const bool has_power = has("propulsion.engine.power_MW") || has("propulsion.engine.bollard_pull_kN");
+  if (!has_power)
     require("propulsion.engine.power_MW", "installed power, a number > 0, ≤ 1000 [MW], or bollard_pull_kN");
-  require("propulsion.engine.open_water_speed_m_per_s",
-          "a number > 0, ≤ 30 [m/s]; it is estimated where power, dimensions and block coefficient are known");
+  if (has_form && has_power && has("hull.entrance_angle_deg"))
+    require("propulsion.engine.open_water_speed_m_per_s",
+            "a number > 0, ≤ 30 [m/s]; the estimate does not cover this hull and power");
 }
 
 }  // namespace polynya::io

@@ -22,8 +22,9 @@ struct Estimate {
 /// `density` is that of the water [kg/m³].
 std::vector<Estimate> add_estimates(JsonValue& ship, double density);
 
-/// Reports each value that `polynya performance` needs and that is neither stated nor estimated, at its own path.
-/// Also reports what prevents a run in level ice: a waterline point by point, a mooring, thrust without an engine.
+/// Reports each value that `polynya performance` needs and that has to be stated, at its own path: one that is neither
+/// stated nor estimated, and would not be estimated if the other reported ones were stated. Also reports what prevents
+/// a run in level ice: a waterline point by point, a mooring, thrust without an engine.
 void report_for_level_ice(const JsonValue& ship, const ReportAt& report_at);
 
 }  // namespace polynya::io

@@ -61,7 +61,7 @@ def compared(method, loads):
     tail = extremes.Tail(ordered[0], loads.hours, ordered[1:] - ordered[0])
     for records in RECORDS:
         low, high = METHODS[method](tail, records * loads.hours)
-        yield estimate.Answer(records * loads.hours, records, (low + high) / 2, low, high, False, 0, 0, None, "")
+        yield estimate.Answer(records * loads.hours, records, (low + high) / 2, low, high, False, 0, 0, None, None)
 
 
 def trials(shape, peaks, number, seed=1, method=None):

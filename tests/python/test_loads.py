@@ -8,7 +8,8 @@ import polynya
 import pytest
 import tail_coverage
 from program import ended, rows, run_of, started, succeeded
-from polynya import loads
+from polynya import extremes, loads
+from polynya.loads import pictures, words
 from polynya.loads.gather import Case, Loads, Waterline
 
 SCENE = {
@@ -93,10 +94,65 @@ def test_far_periods_are_withheld_or_marked():
     peaks = made(1e5 + 2e5 * numpy.random.default_rng(6).exponential(size=100), hours=2.0)
     near, far, lowest = loads.estimate.returns(peaks, [20.0, 20.1, 0.01])
     assert near.value_N and not near.is_extrapolated
-    assert far.value_N is None and "10.1 times the record" in far.why and far.record_needed_h > 2.01
+    assert far.value_N is None and far.record_needed_h > 2.01
+    assert far.why.startswith("a return period may be at most 10 times the record, here 20 h: record 2.01 h or more")
     assert lowest.value_N is None and "more often" in lowest.why
     marked = loads.estimate.returns(peaks, [20.1], extrapolate=True)[0]
     assert marked.is_extrapolated and marked.value_N > near.value_N
+
+
+def test_a_tail_of_infinite_variance_gives_no_return_value():
+    """No test refutes the tail, because the peaks are those of one, but its values for rare loads mean nothing."""
+    heavy = made(1e5 + 2e5 * extremes.stretched(1.0, numpy.random.default_rng(3).exponential(size=200)), hours=1.0)
+    found = loads.estimate.estimate(heavy)
+    assert found.used is None and len(found.fits) == 1 and not list(found.fits[0].refuting_tests)
+    assert "of the tail is above 0.5" in found.why and "record longer" in found.why
+    near, far = loads.estimate.returns(heavy, [1.0, 11.0])
+    assert near.value_N is None and near.record_needed_h is None and words.of_record(near, 0.2) == "-"
+    assert far.reasons[0] == near.why and "may be at most 10 times the record, here 10 h" in far.reasons[1]
+    said = list(words.reasons([near, far], found))
+    assert len(said) == 2 and said[1].startswith("11 h also withheld: ")
+    light = made(1e5 + 2e5 * numpy.random.default_rng(3).exponential(size=200), hours=1.0)
+    assert loads.estimate.estimate(light).used and words.of_record(loads.estimate.returns(light)[0], 0.2) != "-"
+
+
+def test_every_reason_says_what_to_do():
+    draws = numpy.random.default_rng(2)
+    few = loads.estimate.estimate(made(draws.exponential(size=10)), least=1e-3)
+    assert few.why.endswith("record longer, or give a smaller --least")
+    mixed = made(draws.permutation([*draws.normal(1e5, 2e3, 300), *draws.normal(9e5, 1e4, 30)]), hours=10)
+    assert "record longer, or fit the large peaks alone (--least)" in loads.estimate.estimate(mixed, least=5e4).why
+    near = loads.estimate.returns(made(1e5 + 2e5 * draws.exponential(size=100)), [0.001])[0]
+    assert "ask for a longer period (--returns)" in near.why and words.of_record(near, 0.2) == "-"
+
+
+def test_a_start_after_the_end_of_all_runs_is_refused(folder):
+    late = ended("loads", "run", "--from", 500, "--out", "late", cwd=folder)
+    assert late.returncode == 2 and late.stdout == "" and not (folder / "late").exists()
+    assert late.stderr == ("polynya loads: --from 500: there are no records after 500 s, because the longest run ends "
+                           "at 20 s: give an earlier time, or run longer (polynya resume RUN --until S)\n")
+
+
+def test_runs_that_end_before_the_start_are_left_out_and_counted(tmp_path):
+    (tmp_path / "base.json").write_text(json.dumps(SCENE))
+    (tmp_path / "s.json").write_text(json.dumps({"scene": "base.json", "grid": {"time.until_s": [2, 8]}}))
+    succeeded("study", "run", "s.json", "--quiet", cwd=tmp_path)
+    found = loads.gather(tmp_path / "studies/s", start=4)
+    assert len(found.cases) == 1 and found.ended == 1 and "1 more runs end before --from" in words.of_loads(found)
+
+
+def test_the_figure_of_pressure_over_area_holds_every_peak():
+    """Peaks of very different areas and pressures lie within the axes; those that have none are counted."""
+    draws = numpy.random.default_rng(7)
+    found = made(draws.exponential(size=300))
+    found.peaks.update(width_m=10 ** draws.uniform(-3, 2, 300), height_m=numpy.ones(300),
+                       pressure_Pa=10 ** draws.uniform(1, 8, 300), ended_by=numpy.full(300, "bend"))
+    found.peaks["pressure_Pa"][:4] = 0
+    axes = pictures.pressure_area(found).axes[0]
+    points = next(line for line in axes.lines if line.get_marker() == "o")
+    assert len(points.get_xdata()) == 296
+    for values, (low, high) in ((points.get_xdata(), axes.get_xlim()), (points.get_ydata(), axes.get_ylim())):
+        assert low < values.min() and values.max() < high
 
 
 def test_the_record_needed_gives_the_interval_wanted():

@@ -3,6 +3,7 @@ import dataclasses
 import json
 import math
 import pathlib
+import re
 import shutil
 
 import numpy
@@ -11,7 +12,8 @@ import pytest
 import polynya
 from program import ended, rows, run_of as folder_of, succeeded
 from polynya.errors import InputError
-from polynya.management import measures, ranking, study
+from polynya.figures.page import Page
+from polynya.management import cautions, cover, encounters, measures, ranking, study, study_figure
 from polynya.management.drift import by_rows, free_drift, tide
 from polynya.management.gates import Gates, Passage, gates_of, managed_width, passages
 from polynya.study.folder import PLAN, RESULT, open_study
@@ -61,7 +63,67 @@ def test_where_nobody_breaks_gates_pass_what_was_put_in(drifting):
                      for k in (len(passage.areas) // 4, 3 * len(passage.areas) // 4))
         assert abs(high - low - 0.5) < 3 * math.sqrt(0.25 / len(passage.areas))
     # The field is 80 m long in the direction of the drift, with a cover of 0.6.
-    assert passages(drifting, gates_of(drifting, {**GATES, "width_m": 300}))[0].cover == pytest.approx(0.6, rel=0.15)
+    for share in cover.covers(drifting, gates_of(drifting, {**GATES, "width_m": 300})):
+        assert share == pytest.approx(0.6, rel=0.15)
+
+
+def test_the_cover_of_a_gate_is_the_share_of_it_under_ice(hit):
+    """A floe of 30 m lies on a gate for 20 s, and beside it one of 40 m for 30 s. Few floes do not make more cover than
+    there is ice, as their area over that of the water between the first centre and the last would."""
+    gates = gates_of(hit, {"upstream_m": 50, "near_m": 35, "width_m": 300})
+    assert cover.covers(hit, gates)[0] == pytest.approx((30 * 20 + 40 * 30) / 30 / 300, rel=0.05)
+    narrow = dataclasses.replace(gates, width=20.0)
+    assert cover.covers(hit, narrow)[0] == 1
+    assert cover.covers(hit, dataclasses.replace(gates, upstream=500.0))[0] is None
+    assert cover.covered([(-3, -1), (-2, 1), (5, 40)], 10) == 4 + 5
+
+
+SQUARE = numpy.array([[0, 0], [10, 0], [10, 10], [0, 10.0]])
+
+
+def test_the_distance_of_outlines_is_that_of_their_nearest_points():
+    assert encounters.ring_distance(SQUARE, SQUARE + [13, 14]) == pytest.approx(5)  # from corner to corner
+    assert encounters.ring_distance(SQUARE, SQUARE + [12, 3]) == pytest.approx(2)  # from side to side
+    assert encounters.ring_distance(SQUARE, SQUARE + [9, 9]) == 0
+    assert encounters.ring_distance(SQUARE, 0.1 * SQUARE + 4) == 0  # one inside the other
+    assert encounters.ring_distance(SQUARE, [-3, 5] + numpy.array([[0, 0], [2, 1], [0, 2.0]])) == pytest.approx(1)
+
+
+def visit(offset, **more):
+    """A ship passes a moored one from upstream with its middle `offset` metres beside the other's. There is no ice."""
+    hull = {"length_m": 40, "beam_m": 10, "entrance_angle_deg": 30, "draught_m": 4, "block_coefficient": 0.6}
+    moored = {"surge_stiffness_N_per_m": 2e5, "sway_stiffness_N_per_m": 2e5, "yaw_stiffness_Nm_per_rad": 1e8,
+              "surge_damping_N_s_per_m": 5e5, "sway_damping_N_s_per_m": 5e5, "yaw_damping_Nm_s_per_rad": 2e8}
+    ships = [{"name": "moored", "hull": hull, "propulsion": {"thrust_N": 0}, "mooring": moored},
+             {"name": "visitor", "hull": hull, "position_m": [150, offset], "heading_deg": 180, "speed_m_per_s": 4,
+              "propulsion": {"constant_speed_m_per_s": 4}}]
+    return {**DRIFTING, "time": {"step_s": 0.05, "until_s": 60}, "structures": [], "floes": [], "ships": ships, **more}
+
+
+def test_a_ship_that_passes_is_no_ice_and_its_distance_is_that_of_the_hulls(home):
+    run = run_of(home, "visit", visit(25))
+    found = measures.measures_of(run, {"body": "moored", "upstream_m": 100, "near_m": 40, "width_m": 300})
+    of = lambda name: found[f"management_{name}"]
+    assert of("floes_upstream") == of("floes_at_body") == of("ice_load_peak_N") == 0 and of("cover_upstream") is None
+    assert of("ship_hits") == of("ship_load_peak_N") == 0
+    moored = run.frame(run.end_time).ship_motions[0]
+    assert of("ship_distance_m") == pytest.approx(15, abs=0.5) and abs(moored[1]) < 1
+    assert of("ships_beyond_gate_s") == pytest.approx((170 - 100) / 4, abs=2.1)  # its stern leaves 170 m
+    words = list(cautions.of_measures(found, "moored"))
+    assert len(words) == 2 and "no ice arrived at moored" in words[0] and "beyond the upstream gate" in words[1]
+
+
+def test_a_hit_is_found_with_its_load(home):
+    run = run_of(home, "hit-by-ship", visit(4))
+    found = measures.measures_of(run, {"body": "moored", "upstream_m": 300, "near_m": 40, "width_m": 300})
+    assert found["management_ship_hits"] >= 1 and found["management_ship_distance_m"] == 0
+    loads = measures.rows_of(run, "moored")
+    assert found["management_ship_load_peak_N"] == numpy.hypot(loads["surge_from_ships_N"],
+                                                               loads["sway_from_ships_N"]).max() > 1e5
+    assert found["management_ice_load_peak_N"] == 0
+    assert found["management_mooring_load_peak_N"] > 0 and found["management_moorings_broken"] == 0
+    printed = succeeded("management", "hit-by-ship", "--upstream", 300, "--near", 40, "--width", 300, cwd=home).stdout
+    assert printed.startswith("WARNING: hit-by-ship: a ship hit moored ")
 
 
 def test_gates_turn_with_the_drift(home):
@@ -110,13 +172,13 @@ def test_hits_are_of_floes_of_the_size(hit):
     loads = measures.loads_on(hit, gates)
     rows = measures.rows_of(hit, "rig")
     assert loads["ice_load"].max() == numpy.hypot(rows["surge_N"], rows["sway_N"]).max() > 0
-    assert not loads["mooring_load"].any()
+    assert "mooring_load" not in loads  # a rig has no mooring, and 0 would rank as the least load
 
 
 def test_the_managed_width_is_what_large_floes_leave():
     gates = Gates("rig", 100, 50, 80, 20)
     passage = lambda *floes: Passage(numpy.arange(len(floes)), numpy.zeros(len(floes)),
-                                     numpy.array([y for y, _ in floes]), numpy.array([size**2 for _, size in floes]), 1)
+                                     numpy.array([y for y, _ in floes]), numpy.array([size**2 for _, size in floes]))
     assert managed_width(passage((0, 19)), gates) == 80
     assert managed_width(passage((0, 21)), gates) == 0
     # The range is −40 to 25, without the bins that the edge of the floe at 15 touches.
@@ -200,8 +262,9 @@ def test_ice_that_left_by_a_rule_is_counted(home):
         assert found["management_ice_lost_m2"] == area and found["management_icebreakers"] == 0
 
 
-def synthetic(folder, patterns, fields=6, drifts=(0.5, 0.8), keep=lambda case: True):
-    """A study of patterns, {name: share of the unmanaged load}, whose cases are written, not run."""
+def synthetic(folder, patterns, fields=6, drifts=(0.5, 0.8), keep=lambda case: True, more=lambda name, seed: {}):
+    """A study of patterns, {name: share of the unmanaged load}, whose cases are written, not run. `more` gives further
+    measures of a pattern and a field."""
     rng = numpy.random.default_rng(3)
     field_loads = {(seed, drift): rng.normal(1e4, 2e3) for seed in range(fields) for drift in drifts}
     folder.mkdir()
@@ -213,18 +276,20 @@ def synthetic(folder, patterns, fields=6, drifts=(0.5, 0.8), keep=lambda case: T
     write_cases(folder, [json.dumps({"scene": 0, "set": v}) + "\n" for v in values])
     varied = [name for name in values[0] if name != "water.drift_m_per_s[0]" or len(drifts) > 1]
     plan = {"format": 1, "name": "synthetic", "cases": len(values), "chunk": 1, "archive": False, "keep": "summary",
-            "set": {}, "source": "", "scenes": ["scenes/0/a.json"], "varied": varied, "collect": {}, "report": {}}
+            "set": {}, "source": "", "scenes": ["scenes/0/a.json"], "varied": varied,
+            "collect": {"management": {"body": "rig"}}, "report": {}}
     (folder / PLAN).write_text(json.dumps(plan))
     planned = open_study(folder)
-    shares = {json.dumps(pilots[name]): share for name, share in patterns.items()}
+    shares = {json.dumps(pilots[name]): (name, share) for name, share in patterns.items()}
     for i, v in enumerate(values):
         case = planned.case_folder(i)
         case.mkdir(parents=True)
-        share = shares[json.dumps(v["ships[1].pilot"])]
+        name, share = shares[json.dumps(v["ships[1].pilot"])]
         mean = share * field_loads[v["seed"], -v["water.drift_m_per_s[0]"]] * rng.normal(1, 0.02)
         found = {"management_ice_load_mean_N": mean, "management_ice_load_q99_N": 4 * mean,
                  "management_largest_at_body_m": 40 * share, "management_icebreakers": int(share < 1),
-                 "management_ice_lost_m2": 300.0, "management_ice_lost_share": 0.003}
+                 "management_ice_lost_m2": 300.0, "management_ice_lost_share": 0.003,
+                 **{f"management_{key}": value for key, value in more(name, v["seed"]).items()}}
         if keep(i):
             (case / RESULT).write_text(json.dumps({"state": "finished", "case": i, "measures": found}))
     return planned
@@ -254,6 +319,73 @@ def test_a_study_ranks_patterns_and_says_which_it_cannot_tell_apart(tmp_path):
         f"{stem}.{suffix}" for stem in stems for suffix in ("csv", "svg", "png")}
 
 
+def ships_meet(name, seed):
+    """The circular pattern hits the protected ship in the first field; the others keep their distance."""
+    is_hit = name == "circular" and seed == 0
+    return {"ship_hits": int(is_hit), "ship_load_peak_N": 2.5e6 * is_hit, "ship_distance_m": 0.0 if is_hit else 84.0,
+            "floes_at_body": 20, "floes_upstream": 30}
+
+
+def test_a_pattern_whose_ship_hits_the_protected_ship_is_warned_of_first_and_is_not_the_best(tmp_path):
+    made = synthetic(tmp_path / "s", {"linear": 0.5, "circular": 0.2, "none": 1}, drifts=(0.5,), more=ships_meet)
+    printed = succeeded("management", made.folder, "--out", tmp_path / "out").stdout
+    assert printed.startswith("WARNING: circular: a ship hit rig in 1 of 6 fields, with up to 2.5 MN")
+    assert printed.count("circular comes first, but is not the best: a ship hit rig in 1 of 6 fields.") == 3
+    assert re.search(r"\n +linear +0 of 6 +- +84 m\n", printed)
+    found = json.loads(succeeded("management", made.folder, "--json").stdout)
+    assert len(found["warnings"]) == 1 and "circular" in found["warnings"][0]
+    assert found["conditions"][0]["contacts"]["circular"] == {"hit": 1, "fields": 6, "load": 2.5e6, "closest": 0.0}
+    table = rows(tmp_path / "out/management-ranking.csv")
+    assert {row["fields_hit_by_a_ship"] for row in table if row["pattern"] == "circular"} == {"1"}
+    drawn = study_figure.draw_ranking(study.read(made.folder), Page())
+    texts = [text.get_text() for axes in drawn.axes for text in axes.texts]
+    assert "circular (hit in 1 of 6)" in texts
+
+
+def test_results_of_a_version_that_did_not_measure_contacts_say_so(tmp_path):
+    made = synthetic(tmp_path / "s", {"circular": 0.2, "none": 1}, drifts=(0.5,))
+    assert "it was not measured whether an icebreaker hit rig" in succeeded("management", made.folder).stdout
+
+
+def test_a_study_to_which_no_ice_came_ranks_nothing(tmp_path):
+    made = synthetic(tmp_path / "s", {"circular": 0.2, "none": 1}, drifts=(0.5,), more=lambda name, seed: {
+        "floes_upstream": 3, "floes_at_body": 0, "ice_load_peak_N": 0.0})
+    printed = succeeded("management", made.folder, "--out", tmp_path / "out").stdout
+    assert printed.startswith("WARNING: no ice arrived at rig in any pattern, so nothing was measured")
+    assert "1.  " not in printed and "±" not in printed
+    assert not rows(tmp_path / "out/management-ranking.csv") and not (tmp_path / "out/management-ranking.png").exists()
+
+
+def test_fields_of_a_pattern_without_ice_are_named(tmp_path):
+    made = synthetic(tmp_path / "s", {"circular": 0.2, "none": 1}, drifts=(0.5,), more=lambda name, seed: {
+        "floes_upstream": int(seed > 1), "floes_at_body": 5 * (seed > 1), "ice_load_peak_N": 9.0 * (seed > 1)})
+    printed = succeeded("management", made.folder).stdout
+    assert "WARNING: circular: no ice passed either gate in 2 of 6 fields." in printed and "  1.  circular" in printed
+
+
+def moored_loads(name, seed):
+    return {"mooring_load_mean_N": {"circular": 9e3, "linear": 2e3, "none": 1e4}[name] + seed,
+            "moorings_broken": int(name == "linear" and seed == 2)}
+
+
+def test_the_load_of_a_mooring_is_ranked_where_there_is_one(tmp_path):
+    made = synthetic(tmp_path / "s", {"circular": 0.2, "linear": 0.5, "none": 1}, drifts=(0.5,), more=moored_loads)
+    printed = succeeded("management", made.folder).stdout
+    assert "mean load of the mooring\n" in printed and "WARNING: linear: the mooring of rig broke in 1 of 6" in printed
+    places = study.read(made.folder).conditions[0].ranked("management_mooring_load_mean_N")
+    assert [place.name for place in places] == ["linear", "circular", "not managed"]
+
+
+@pytest.mark.parametrize("fields, is_warned", [(2, True), (4, True), (5, False)])
+def test_intervals_over_few_fields_are_not_to_be_trusted_and_axes_start_at_zero(tmp_path, fields, is_warned):
+    made = synthetic(tmp_path / "s", {"circular": 0.2, "none": 1}, fields=fields, drifts=(0.5,), more=ships_meet)
+    lines = succeeded("management", made.folder).stdout.splitlines()
+    assert lines[1].startswith(f"WARNING: {fields} fields of ice (seeds): intervals over fewer than 5") == is_warned
+    drawn = study_figure.draw_ranking(study.read(made.folder), Page())
+    assert all(axes.get_xlim()[0] == 0 for axes in drawn.axes if axes.axison)
+    assert len([axes for axes in drawn.axes if axes.axison]) == 3
+
+
 def test_a_study_of_the_pattern_alone_and_of_one_field_is_ranked_without_intervals(tmp_path):
     made = synthetic(tmp_path / "s", {"circular": 0.2, "none": 1}, fields=1, drifts=(0.5,))
     ran = ended("management", made.folder)
@@ -278,7 +410,7 @@ def test_a_study_without_icebreakers_is_ranked_by_what_it_varies(home):
     (home / "s.json").write_text(json.dumps({
         "scene": "base.json", "repetitions": 2, "grid": {"water.drift_m_per_s[0]": [-1, -2],
                                                          "ice.thickness_m": [0.4, 0.6]},
-        "collect": {"management": {"upstream_m": 330, "near_m": 100, "width_m": 300}}}))
+        "collect": {"management": {"upstream_m": 330, "near_m": 290, "width_m": 300}}}))
     succeeded("study", "run", "s.json", cwd=home)
     found = json.loads(succeeded("management", "studies/s", "--json", cwd=home).stdout)
     assert [condition["name"] for condition in found["conditions"]] == ["drift 1 m/s", "drift 2 m/s"]

@@ -12,7 +12,7 @@ from polynya import formulas
 from polynya.performance import level_ice, sensitivity
 from polynya.performance.__main__ import hull_of, print_table, ship_of
 from polynya.performance.curve import VALIDATED_THICKNESS, Curve, beyond_band
-from polynya.performance.options import command_line
+from polynya.performance.options import USES, command_line, problem_of, read_options
 
 HULL = formulas.Hull(120, 24, 6, math.radians(30), math.radians(27))
 
@@ -109,6 +109,44 @@ def test_other_options_have_ranges_too(capsys):
         assert "allowed: " in capsys.readouterr().err
 
 
+VALUES = {"thickness": "0.5", "flexural_strength": "5e5", "friction": "0.1", "step": "0.01", "out": "x", "jobs": "2",
+          "cover": "0.8", "floe_size": "20", "fields": "3", "speed": "2", "error": "0.05"}
+
+
+@pytest.mark.parametrize("use", list(USES))
+def test_an_option_that_a_use_ignores_is_refused_with_the_uses_it_is_for(use, capsys):
+    words = ["ship", *(word for word in use.split() if word.startswith("--"))]
+    assert set(VALUES) == set().union(*USES.values())
+    for name, value in VALUES.items():
+        option = f"--{name.replace('_', '-')}"
+        problem = problem_of(command_line().parse_args([*words, f"{option}={value}"]))
+        assert (problem == "") == (name in USES[use])
+        if problem:
+            assert problem.startswith(f"{option}: {use} does not use it; it is for: ")
+            with pytest.raises(SystemExit) as ended_by:
+                read_options([*words, f"{option}={value}"])
+            assert ended_by.value.code == 2 and capsys.readouterr().err.startswith(f"polynya performance: {problem}\n")
+
+
+def test_a_list_of_what_needs_runs_is_refused():
+    for regime in ("--pack", "--level"):
+        done = ended("performance", "polaris", regime, "--list")
+        assert done.returncode == 2 and done.stdout == "" and "--channel --list" in done.stderr
+    read = read_options(["polaris"])
+    assert (read.error, read.fields) == (0.03, 2) and read.jobs >= 1
+
+
+def test_every_column_of_the_ice_classes_has_its_unit():
+    printed = succeeded("performance", "polaris", "--channel", "--list").stdout
+    lines = printed.splitlines()
+    at = next(k for k, line in enumerate(lines) if line.startswith("class"))
+    names, units = re.split(r"  +", lines[at]), lines[at + 1].split()
+    assert len(units) == len(names) - 1 and set(units) == {"[m]", "[kN]", "[MW]"}
+    ends = lambda line: [match.end() for match in re.finditer(r"\S+(?: \S+)*", line)]
+    assert ends(lines[at])[1:] == ends(lines[at + 1])  # each unit is below its name
+    assert "not computed without runs" in printed and "IA Super" in printed
+
+
 def test_two_hundred_changed_ships_are_read_or_refused_with_their_places(tmp_path):
     chance = random.Random(31)
     path, refused = tmp_path / "ship.json", []
@@ -183,6 +221,33 @@ def test_points_out_of_the_formulas_band_are_marked_in_thin_ice_too(speed, words
     assert ("0.5! " in table) == ("in 0.25 m, 0.5 m" in table) == bool(words) and words in table
     figure.draw(rows_of(0.25, speed=speed), "title", [], tmp_path / "figure.svg")
     assert ("outside the band of the formulas" in (tmp_path / "figure.svg").read_text()) == bool(words)
+
+
+def test_the_figure_of_one_thickness_shows_the_formulas_beside_it(tmp_path):
+    """A line through one point cannot be seen: the formulas are drawn around it, and the point is not at the edge."""
+    matplotlib = pytest.importorskip("matplotlib")
+    from matplotlib.figure import Figure
+    from polynya.performance import figure
+    curve = Curve(SHIP, hull_of(SHIP), {"bollard_pull_N": 1e6, "open_water_speed_m_per_s": 8},
+                  formulas.Ice(0, flexural_strength=500e3, friction=0.1), str(tmp_path), "polynya", 0.03, 0.01)
+    rows = rows_of(0.8, speed=6.0)
+    around = figure.formula_rows(curve, rows)
+    assert around[0]["thickness_m"] < 0.8 < around[-1]["thickness_m"] and len(around) == figure.POINTS
+    drawn, keep = [], Figure.savefig
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Figure, "savefig", lambda self, *of, **more: (drawn.append(self), keep(self, *of, **more)))
+        figure.draw(rows, "our " * 40 + "ship\nice", [], tmp_path / "one.png", around)
+        figure.draw(rows, "title", [], tmp_path / "marks.png")
+    for page, is_line in zip(drawn, (True, False)):
+        axes = page.axes[0]
+        lines = [line for line in axes.lines if line.get_color() == "0.35"]
+        assert len(lines) == 3 and all((len(line.get_xdata()) > 1) == is_line for line in lines)
+        assert all(is_line or line.get_marker() == "_" for line in lines)
+        low, high = axes.get_xlim()
+        assert low < 0.8 - 0.05 and high > 0.8 + 0.05 and axes.get_ylim()[1] > 6.1
+        width = page.get_size_inches()[0] * page.dpi
+        assert all(0 <= text.get_window_extent().x0 and text.get_window_extent().x1 <= width for text in page.texts)
+    assert matplotlib
 
 
 SPARSE = {"hull": {"length_m": 84, "beam_m": 20, "draught_m": 7, "block_coefficient": 0.62},

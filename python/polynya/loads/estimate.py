@@ -11,8 +11,13 @@ from scipy import stats
 from polynya import extremes
 
 from . import bursts
+from .units import in_hours
 
 REFUTED = 0.05  #: a fit with a smaller p value is refuted
+#: Largest shape of a tail that gives return values [-]. From a shape of 0.5 on, the peaks of the fitted tail have an
+#: infinite variance, so that a few more peaks may change a return value by any amount. Larger: values of short records
+#: of heavy tails are given, which are several times the true ones.
+HEAVIEST = 0.5
 HALF_WIDTH = 0.2  #: half of an interval relative to its value, for which the required length of record is stated [-]
 
 
@@ -40,16 +45,31 @@ class Fit:
     goodness_p: float  #: p value of Anderson and Darling's test
 
     @property
-    def refuted(self):
-        """Reason why the fit gives no return values; empty if it gives them."""
-        reasons = []
+    def is_heavy(self):
+        """Returns True if the tail is too heavy for return values, whatever the tests say."""
+        return self.tail.shape.value > HEAVIEST
+
+    @property
+    def refuting_tests(self):
+        """Sentences on the tests that refute the fit, with what to do."""
         if self.goodness_p < REFUTED:
-            reasons.append(f"the peaks do not follow the fitted tail (p {self.goodness_p:.2g})")
+            yield (f"the peaks do not follow the fitted tail (p {self.goodness_p:.2g}, below {REFUTED:g}): record "
+                   "longer, or fit the large peaks alone (--least)")
         if self.events.counts_p < bursts.UNLIKE:
-            reasons.append(f"peaks come more often in some parts of the record than in others (p "
-                           f"{self.events.counts_p:.2g})")
+            yield (f"peaks come more often in some parts of the record than in others (p {self.events.counts_p:.2g}, "
+                   f"below {bursts.UNLIKE:g}): leave out the start of the runs (--from), or record longer")
         if self.events.sizes_p < bursts.UNLIKE:
-            reasons.append(f"peaks are larger in some runs or parts than in others (p {self.events.sizes_p:.2g})")
+            yield (f"peaks are larger in some runs or parts than in others (p {self.events.sizes_p:.2g}, below "
+                   f"{bursts.UNLIKE:g}): leave out the start of the runs (--from), or record longer")
+
+    @property
+    def refuted(self):
+        """Reasons why the fit gives no return values; empty if it gives them."""
+        reasons = list(self.refuting_tests)
+        if self.is_heavy:
+            reasons.append(f"the shape {self.tail.shape.value:.2f} of the tail is above {HEAVIEST:g}, so that its "
+                           "peaks have an infinite variance and the record is too short to decide rare loads: "
+                           "record longer")
         return "; ".join(reasons)
 
 
@@ -82,7 +102,8 @@ def estimate(loads, least=None):
     kinds."""
     record = bursts.record_of(loads)
     if len(loads.kinds()) > 1:
-        return Estimate([], record.hours, "the runs differ in more than their seeds; each kind has its own answer")
+        return Estimate([], record.hours, "the runs differ in more than their seeds, so they are not pooled: each kind "
+                                          "has its own answer")
     if loads.beyond_limit:
         return Estimate([], record.hours, f"{loads.beyond_limit} peaks are not in contacts.csv, whose limit was "
                                           "reached: raise record.least_peak_N and run again")
@@ -95,17 +116,26 @@ def estimate(loads, least=None):
         fits.append(Fit(extremes.Tail(threshold, record.hours, excesses), events, extremes.goodness(excesses)))
         if not fits[-1].refuted:
             return Estimate(fits, record.hours, "")
+        if not list(fits[-1].refuting_tests):  # fewer peaks decide the shape of a heavy tail no better
+            break
     if fits:
         which = "the fit is refuted" if len(fits) == 1 else "every fit is refuted; the last"
         return Estimate(fits, record.hours, f"{which}: {fits[-1].refuted}")
-    count = numpy.count_nonzero(record.forces > (least or 0))
-    return Estimate([], record.hours, f"{count} peaks{f' above {least:g} N' if least else ''} make fewer than "
-                                      f"{extremes.LEAST_PEAKS} independent ones above a threshold")
+    return Estimate([], record.hours, too_few(record, least))
+
+
+def too_few(record, least):
+    """Says that there are too few peaks for a fit, and what to do."""
+    count = int(numpy.count_nonzero(record.forces > (least or 0)))
+    above = f" above {least:g} N" if least else ""
+    lower = ", or give a smaller --least" if least else ""
+    return (f"a fit needs {extremes.LEAST_PEAKS} independent peaks above a threshold, and {count} peaks{above} make "
+            f"fewer: record longer{lower}")
 
 
 @dataclasses.dataclass(frozen=True)
 class Answer:
-    """The value that is exceeded once in a period on average, or the reason why it is not given. Forces in N, times in
+    """The value that is exceeded once in a period on average, or the reasons why it is not given. Forces in N, times in
     hours."""
 
     period_h: float
@@ -116,8 +146,13 @@ class Answer:
     is_extrapolated: bool  #: true if the period is longer than those for which the intervals were tested
     seen_low_N: float  #: limits between observed peaks, without a fit
     seen_high_N: float
-    record_needed_h: Optional[float]
-    why: str  #: reason why there is no value
+    record_needed_h: Optional[float]  #: None without a fit that could tell it
+    least_record_h: Optional[float]  #: a tenth of the period; None without a fit, whose value it could allow
+    reasons: tuple = ()  #: reasons why there is no value
+
+    @property
+    def why(self):
+        return ". ".join(self.reasons)
 
 
 def standard_periods(hours):
@@ -135,22 +170,42 @@ def returns(loads, hours=None, least=None, extrapolate=False, half_width=HALF_WI
             for period in (standard_periods(found.hours) if hours is None else hours)]
 
 
+def too_far(found, period):
+    """Says that a period is too long for a record, and what to do."""
+    most, needed = extremes.FARTHEST * found.hours, period / extremes.FARTHEST
+    return (f"a return period may be at most {extremes.FARTHEST:g} times the record, here {in_hours(most)}: record "
+            f"{in_hours(needed)} or more, ask for shorter periods (--returns), or give --extrapolate for a value that "
+            "is marked as untested")
+
+
+def too_near(period):
+    """Says that a period is too short for a fit, and what to do."""
+    return (f"peaks above the fit's threshold come more often than once in {in_hours(period)}: ask for a longer period "
+            "(--returns), or read the value from the peaks seen")
+
+
+def reasons_of(found, period, is_far):
+    """Reasons why no value is given for a period."""
+    if found.why:
+        yield found.why
+    if is_far:
+        yield too_far(found, period)
+    elif found.used and not found.used.tail.reaches(period):
+        yield too_near(period)
+
+
 def answer(found, forces, period, extrapolate=False, half_width=HALF_WIDTH):
     records = period / found.hours
     is_far = records > extremes.FARTHEST * (1 + 1e-9)
-    tail, why, value = found.used and found.used.tail, found.why, None
-    if not why and is_far and not extrapolate:
-        why = (f"the period is {float(f'{records:.3g}'):.6g} times the record, more than {extremes.FARTHEST:g}; "
-               "--extrapolate answers all the same")
-    if not why and not tail.reaches(period):
-        why = f"peaks above the fit's threshold come more often than once in {period:.3g} h"
-    if not why:
-        value = tail.level(period)
+    tail, reasons = found.used and found.used.tail, tuple(reasons_of(found, period, is_far and not extrapolate))
+    value = None if reasons else tail.level(period)
     events = found.fits[-1].events.forces if found.fits else forces
     low, high = extremes.level_of_order(events, found.hours, period)
+    needs_record = tail is not None and tail.reaches(period)
     return Answer(period, records, *((None,) * 3 if value is None else (value.value, value.low, value.high)),
                   is_far and value is not None, low, high,
-                  tail.record_needed(period, half_width) if tail else None, why)
+                  tail.record_needed(period, half_width) if needs_record else None,
+                  period / extremes.FARTHEST if needs_record else None, reasons)
 
 
 def panels(loads):

@@ -70,6 +70,7 @@ class Loads:
     left_out: int  #: number of peaks below the smallest that the runs record
     beyond_limit: int = 0  #: number of peaks beyond the number that the runs record
     gauge_s: float = 0.0  #: time constant of the gauge that measured the peaks
+    ended: int = 0  #: number of runs that end before the first time that counts, and are left out
 
     @property
     def hours(self):
@@ -157,10 +158,19 @@ def joined(parts):
     return {name: numpy.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
+def with_time(cases, scenes, start, end):
+    """The cases that have some time from `start` [s] on, with their scenes. `end` is the end of the longest run [s]."""
+    kept = [(case, scene) for case, scene in zip(cases, scenes) if case.hours > 0]
+    if not kept:
+        raise InputError(f"--from {start:g}: there are no records after {start:g} s, because the longest run ends at "
+                         f"{end:g} s: give an earlier time, or run longer (polynya resume RUN --until S)")
+    return [list(column) for column in zip(*kept)]
+
+
 def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
     """Reads the peaks, and if they were recorded the panels, of a ship or structure (the first by default). Only times
     from `start` [s] of each run count. `panel` is the length of the panels by which peaks are counted [m]."""
-    cases, scenes, peaks, panels, left_out, beyond = [], [], [], [], 0, 0
+    cases, scenes, peaks, panels, left_out, beyond, end = [], [], [], [], 0, 0, 0.0
     first = None
     for number, run_folder in runs_of(folder):
         run = Run(run_folder, unfinished=True, pandas=False, shapely=False)
@@ -169,6 +179,7 @@ def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
         if run.waterlines[body["name"]].shape != first[0].waterlines[first[1]["name"]].shape:
             raise InputError(f"{run.folder}: another waterline than in {first[0].folder}: places are not the same")
         cases.append(case_of(number, run, body["name"], start))
+        end = max(end, run.end_time)
         scenes.append(kind_of(run.scene))
         of_run = of_ship({name: numpy.asarray(run.peaks[name]) for name in run.peaks.dtype.names}, body["name"], start)
         of_run["case"] = numpy.full(len(of_run["t_s"]), number)
@@ -181,13 +192,14 @@ def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
             rows["case"] = numpy.full(len(rows["t_s"]), number)
             panels.append(rows)
     run, body = first
+    with_records, scenes = with_time(cases, scenes, start, end)
     all_peaks = joined(peaks)
     all_peaks["force_N"] = all_peaks["pressure_Pa"] * all_peaks["width_m"] * all_peaks["height_m"]
     length = (body.get("panels") or {}).get("length_m", COMMON)
     is_recorded = len(panels) == len(cases) and panel in (None, length)  # panels of another length were not recorded
     return Loads(name=pathlib.Path(folder).resolve().name, ship=body["name"], is_fixed="propulsion" not in body,
                  waterline=Waterline(run.waterlines[body["name"]]), panel_m=panel or length,
-                 cases=with_kinds(cases, scenes),
+                 cases=with_kinds(with_records, scenes), ended=len(cases) - len(with_records),
                  peaks=all_peaks, panels=joined(panels) if is_recorded else None,
                  interval_s=run.summary["forces_interval_s"], left_out=left_out, beyond_limit=beyond,
                  gauge_s=run.scene["record"].get("peak_response_s", 0.0))

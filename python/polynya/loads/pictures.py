@@ -6,7 +6,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
-from polynya.figures.page import Page, Sheet
+from polynya.figures.page import Page, Sheet, set_log
 
 from . import estimate, rules, words
 
@@ -15,7 +15,7 @@ KINDS = (BLACK, RED, BLUE, GREEN, PURPLE, "#e69f00")
 ENDS = {"bend": (BLUE, "o"), "split": (RED, "^"), "tilt": (GREEN, "s"), "slip": ("#888888", ".")}
 MOST_POINTS = 5000  # largest number of points of a scatter plot; the largest peaks are drawn
 BINS = 400  # number of time intervals of a raster
-REFUTED = {"color": "#777777", "linestyle": ":", "linewidth": 1.0}
+REFUTED = {"color": "#777777", "linestyle": ":"}
 WIDEST = 5  # a fit is drawn up to this multiple of the largest peak
 HEIGHT = 70  # height of the panels of a figure [mm]
 
@@ -36,10 +36,8 @@ def draw_fits(axes, found, lowest):
         rates, middle, _, _ = curve_of(fit.tail, lowest)
         axes.plot(middle, rates, **REFUTED)
     if refuted:
-        least_p = [min(fit.goodness_p, fit.events.counts_p, fit.events.sizes_p) for fit in refuted]
-        words_of_p = f"p {max(least_p):.2g}" + (" at most" if len(refuted) > 1 else "")
         words_of_all = "refuted fit" if len(refuted) == 1 else f"{len(refuted)} refuted fits"
-        handles.append(Line2D([], [], label=f"{words_of_all} above {forces_of(refuted)}: {words_of_p}", **REFUTED))
+        handles.append(Line2D([], [], label=f"{words_of_all} above {forces_of(refuted)}: {why_of(refuted)}", **REFUTED))
     if found.used:
         tail = found.used.tail
         rates, middle, low, high = curve_of(tail, lowest)
@@ -49,6 +47,15 @@ def draw_fits(axes, found, lowest):
         handles.append(Line2D([], [], color=RED, linestyle="--", label=label))
         reach = high.max()
     return handles, reach
+
+
+def why_of(fits):
+    """Describes what refutes fits: the largest p value of those that a test refutes, and the largest shape that is too
+    heavy."""
+    tested = [min(fit.goodness_p, fit.events.counts_p, fit.events.sizes_p) for fit in fits if list(fit.refuting_tests)]
+    heavy = [fit.tail.shape.value for fit in fits if fit.is_heavy]
+    found = [f"p {max(tested):.2g}" + (" at most" if len(tested) > 1 else "")] if tested else []
+    return ", ".join(found + ([f"shape up to {words.shape(max(heavy))}"] if heavy else []))
 
 
 def forces_of(fits):
@@ -110,32 +117,53 @@ def exceedance(loads, estimates, page=Page()):
         return sheet.finish(HEIGHT * page.style.scale, handles)
 
 
+def draw_peaks(axes, loads, area, order, scale):
+    """Draws peaks by area and pressure, marked by what ended them. Returns the legend entries."""
+    handles = []
+    for end, (colour, marker) in ENDS.items():
+        chosen = order[loads.peaks["ended_by"][order] == end]
+        if len(chosen):
+            axes.plot(area[chosen], loads.peaks["pressure_Pa"][chosen] / 1e6, marker, color=colour,
+                      markersize=2.5 * scale, markeredgewidth=0, alpha=0.6, clip_on=False)
+            handles.append(Line2D([], [], color=colour, marker=marker, linestyle="", label=f"ended by {end}"))
+    return handles
+
+
+def draw_rules(axes, low, high):
+    """Draws the rules over areas [m²]. Returns the legend entries, and the smallest and largest pressure of the polar
+    classes [MPa]."""
+    x, handles = numpy.geomspace(low, high, 200), []
+    curves = [("ISO 19906, local", rules.iso_local_pressure(x), BLACK, "-")]
+    curves += [(f"Polar Class {name[2:]}", rules.polar_class_pressure(x, name), PURPLE, dash)
+               for name, dash in (("PC1", "--"), ("PC4", "-."), ("PC7", ":"))]
+    for name, y, colour, dash in curves:
+        axes.plot(x, y / 1e6, color=colour, linestyle=dash)
+        handles.append(Line2D([], [], color=colour, linestyle=dash, label=name))
+    classes = numpy.concatenate([y for _, y, colour, _ in curves if colour == PURPLE]) / 1e6
+    return handles, classes.min(), classes.max()
+
+
 def pressure_area(loads, page=Page()):
-    """Draws the nominal pressure of each peak over its area, with the rules for comparison."""
-    area = loads.peaks["width_m"] * loads.peaks["height_m"]
-    order = numpy.argsort(loads.forces)[::-1][:MOST_POINTS]
+    """Draws the nominal pressure of each peak over its area, with the rules for comparison. The axes hold every drawn
+    peak; the steep rule for tiny areas may leave them."""
+    area, pressure = loads.peaks["width_m"] * loads.peaks["height_m"], loads.peaks["pressure_Pa"] / 1e6
+    drawable = numpy.flatnonzero((area > 0) & (pressure > 0))
+    order = drawable[numpy.argsort(loads.forces[drawable])[::-1][:MOST_POINTS]]
     if len(order) < 2:
         return None
-    x = numpy.geomspace(max(1e-3, area[area > 0].min()), max(100.0, area.max()), 200)
     with Sheet(page, "Pressure and area", "Nominal: force along the normal by width and height; rules: from "
                "memory") as sheet:
         axes = sheet.panels(1, 1)[0, 0]
-        handles = []
-        for end, (colour, marker) in ENDS.items():
-            chosen = order[loads.peaks["ended_by"][order] == end]
-            if len(chosen):
-                axes.plot(area[chosen], loads.peaks["pressure_Pa"][chosen] / 1e6,
-                          marker, color=colour, markersize=2.5, markeredgewidth=0, alpha=0.6)
-                handles.append(Line2D([], [], color=colour, marker=marker, linestyle="", label=f"ended by {end}"))
-        curves = [("ISO 19906, local", rules.iso_local_pressure(x), BLACK, "-")]
-        curves += [(f"Polar Class {name[2:]}", rules.polar_class_pressure(x, name), PURPLE, dash)
-                   for name, dash in (("PC1", "--"), ("PC4", "-."), ("PC7", ":"))]
-        for words, y, colour, dash in curves:
-            axes.plot(x, y / 1e6, color=colour, linestyle=dash)
-            handles.append(Line2D([], [], color=colour, linestyle=dash, label=words))
-        axes.set(xscale="log", yscale="log", xlabel="area, m²", ylabel="pressure, MPa")
-        axes.set_ylim(bottom=max(1e-3, numpy.quantile(loads.peaks["pressure_Pa"][order], 0.01) / 2e6))
-        return sheet.finish(HEIGHT * page.style.scale, handles)
+        low, high = 0.7 * area[order].min(), max(20.0, 1.5 * area[order].max())
+        handles, least, most = draw_rules(axes, low, high)
+        handles = draw_peaks(axes, loads, area, order, page.style.scale) + handles
+        set_log(axes.xaxis, low, high)
+        set_log(axes.yaxis, *(limits := (min(least, pressure[order].min()) / 1.5,
+                                         2.0 * max(most, pressure[order].max()))))
+        axes.set(xlabel="area, m²", ylabel="pressure, MPa", xlim=(low, high), ylim=limits)
+        rest = len(loads.forces) - len(order)
+        note = [f"{rest} more peaks are smaller, or have no area or pressure (loads-peaks.csv)."] if rest else []
+        return sheet.finish(HEIGHT * page.style.scale, handles, note)
 
 
 def along(loads, page=Page()):

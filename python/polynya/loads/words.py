@@ -1,25 +1,14 @@
 """Results of `polynya loads` in sentences, for the terminal and for its page."""
 import math
+import textwrap
 
 from polynya import extremes
 
 from . import estimate
+from .units import in_hours as hours, plain
 
+WIDEST = 118  #: number of columns of a printed reason; longer ones continue on the next line
 MOST_KINDS = 12  #: largest number of kinds of runs whose answers are printed
-
-
-def plain(value):
-    """A number with three digits, without an exponent: 0.0123, 1250, 40000."""
-    rounded = float(f"{value:.3g}")
-    return f"{rounded:.0f}" if abs(rounded) >= 100 else f"{rounded:.4g}"
-
-
-def hours(value):
-    """A duration in a suitable unit: 90 s, 12 min, 3.5 h."""
-    for most, unit, name in ((1 / 30, 3600, "s"), (0.9995, 60, "min")):
-        if value < most:
-            return f"{plain(value * unit)} {name}"
-    return f"{plain(value)} h"
 
 
 def force(value):
@@ -56,12 +45,16 @@ def of_answer(given):
 
 
 def reasons(answers, found):
-    """Reasons why values are not given or not reliable, each once."""
-    said = {given.why: [] for given in answers if given.why}
+    """Reasons why values are not given or not reliable, each once, with the periods if not all are meant."""
+    if found.why:
+        yield found.why
+    periods = {}
     for given in answers:
-        if given.why:
-            said[given.why].append(hours(given.period_h))
-    yield from (why if why == found.why else f"{', '.join(periods)} withheld: {why}" for why, periods in said.items())
+        for why in given.reasons:
+            if why != found.why:
+                periods.setdefault(why, []).append(hours(given.period_h))
+    for why, of in periods.items():
+        yield f"{', '.join(of)} {'also ' if found.why else ''}withheld: {why}"
     if any(given.is_extrapolated for given in answers):
         yield f"extrapolated: no interval was tested beyond {extremes.FARTHEST:g} records"
 
@@ -72,10 +65,10 @@ def of_seen(given):
 
 
 def of_record(given, half_width):
-    """Says how long a record must be."""
+    """Says how long a record must be; nothing without a fit that could tell it."""
     if given.record_needed_h:
         return f"{hours(given.record_needed_h)} for ±{100 * half_width:g} %"
-    return f"at least {hours(given.period_h / extremes.FARTHEST)}"
+    return f"at least {hours(given.least_record_h)}" if given.least_record_h else "-"
 
 
 def of_loads(loads):
@@ -84,8 +77,9 @@ def of_loads(loads):
     kinds = f" of {len(loads.kinds())} kinds" if len(loads.kinds()) > 1 else ""
     reach = f", {loads.kilometres:.3g} km" if loads.kilometres > 1e-6 else ""
     gauge = f"; through a gauge of {loads.gauge_s:g} s" if loads.gauge_s else ""
+    ended = f"; {loads.ended} more runs end before --from" if loads.ended else ""
     return (f"{len(loads.forces)} peaks on {loads.ship} in {runs} run{'s' if runs > 1 else ''}{kinds}, "
-            f"{hours(loads.hours)}{reach}{gauge}")
+            f"{hours(loads.hours)}{reach}{gauge}{ended}")
 
 
 def of_fits(found):
@@ -114,13 +108,15 @@ def lines_of(loads, estimates, answers, half_width):
         rows = [["once in", "records", "force (90 %)", "by peaks seen", "record needed"]]
         rows += [[hours(given.period_h), plain(given.records), of_answer(given), of_seen(given),
                   of_record(given, half_width)] for given in own]
-        for line in (*of_fits(found), *aligned(rows), *reasons(own, found)):
-            yield f"  {line}"
+        yield from (f"  {line}" for line in (*of_fits(found), *aligned(rows)))
+        for why in reasons(own, found):
+            yield from textwrap.wrap(why, WIDEST, initial_indent="  ", subsequent_indent="    ")
     if len(estimates) > MOST_KINDS:
         yield f"and {len(estimates) - MOST_KINDS} more kinds of runs: loads-returns.csv"
 
 
 EXPLAINED = (
-    f"Intervals hold {100 * extremes.LEVEL:g} %. A fit with p below {estimate.REFUTED:g} is refuted and gives no "
-    f"return value: it is struck through. Return values beyond {extremes.FARTHEST:g} records are withheld but with "
-    "--extrapolate. “By peaks seen” needs no fit. How often the intervals hold the truth is in docs/loads.md.")
+    f"Intervals hold {100 * extremes.LEVEL:g} %. A fit with p below {estimate.REFUTED:g} or a shape above "
+    f"{estimate.HEAVIEST:g} is refuted and gives no return value: it is struck through. Return values beyond "
+    f"{extremes.FARTHEST:g} records are withheld but with --extrapolate. “By peaks seen” needs no fit. How often the "
+    "intervals hold the truth is in docs/loads.md.")

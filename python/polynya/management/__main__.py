@@ -13,7 +13,7 @@ from ..naming import names_of_folders
 from ..results.run import Run
 from ..study import folder as folders
 from ..study.gather import gather
-from . import study, words
+from . import cautions, study, words
 from .gates import Passage, distribution, gates_of, passages
 from .measures import effort, measures_of, rows_of
 from .options import command_line
@@ -63,7 +63,14 @@ def shown(value):
     return "-" if value is None else f"{value:.4g}"
 
 
+def print_cautions(cases):
+    for case in cases:
+        for sentence in cautions.of_measures(case.measures, case.gates.body):
+            print(f"WARNING: {case.name}: {sentence}")
+
+
 def print_cases(cases):
+    print_cautions(cases)
     names = list(cases[0].measures)
     width = max(map(len, names)) - len("management_")
     columns = [max(12, len(case.name)) for case in cases]

@@ -3,11 +3,13 @@ import numpy
 from matplotlib.lines import Line2D
 
 from ..figures.page import Sheet, plain
+from ..naming import short
 from .gates import distribution, managing
 from .measures import loads_on, rows_of
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")  # [Okabe2008]
 REST = "#bbbbbb"  # colour of further runs
+LONGEST = 24  # largest length of a run's name in the title of a panel [characters]
 HEIGHT = 62  # height of a row of panels [mm]
 
 
@@ -50,12 +52,13 @@ def draw_exceedance(axes, cases):
 
 
 def draw_tracks(axes, case, colour):
-    """Draws the tracks of the icebreakers over ground, and the body at the end."""
+    """Draws the tracks of the icebreakers over ground, and the waterline of the body at the end."""
     for ship in managing(case.run.scene):
         rows = rows_of(case.run, ship)
         axes.plot(rows["x_m"], rows["y_m"], linewidth=0.6, color=colour)
-    body = rows_of(case.run, case.gates.body)
-    axes.plot(body["x_m"][-1:], body["y_m"][-1:], "s", color="0.2", markersize=4)
+    run = case.run
+    outline = run.frame(run.end_time).hulls[case.gates.body]
+    axes.fill(*outline.T, color="0.2")
     axes.set(xlabel="x, m", ylabel="y, m", aspect="equal")
 
 
@@ -73,7 +76,9 @@ def draw_passed(axes, cases):
         for passage, dash in ((case.before, "--"), (case.after, "-")):
             edges, _, areas = distribution(passage)
             axes.stairs(areas, edges, color=colour, linestyle=dash)
-    axes.set(xlabel="floe size √area, m", ylabel="ice through the gate, m²", xscale="log")
+    sizes = numpy.concatenate([passage.sizes for case in cases for passage in (case.before, case.after)])
+    ends = {"xlim": (0.7 * sizes.min(), 1.5 * sizes.max())} if len(sizes) else {}
+    axes.set(xlabel="floe size √area, m", ylabel="ice through the gate, m²", xscale="log", **ends)
 
 
 def legend_of(cases):
@@ -100,7 +105,8 @@ def draw_runs(cases, page):
         draw_across(grid[3], cases)
         draw_tracks(grid[4], cases[managed], COLOURS[managed] if managed < len(COLOURS) else REST)
         draw_passed(grid[5], cases)
-        words = ("number", "share", "exceedance", "across", f"tracks of {cases[managed].name} over ground", "by area")
+        tracks = f"tracks of {short(cases[managed].name, LONGEST)} over ground"
+        words = ("number", "share", "exceedance", "across", tracks, "by area")
         for number, (axes, title) in enumerate(zip(sheet.figure.axes, words)):
             sheet.title_panel(axes, number, 6, title, page.width / columns - 18)
         return sheet.finish(page.row_height(6 // columns, HEIGHT) * (6 // columns), legend_of(cases))

@@ -33,16 +33,11 @@ class Passage:
     times: numpy.ndarray  # [s]
     across: numpy.ndarray  # position in the gate, to port of upstream [m]
     areas: numpy.ndarray  # [m²]
-    swept: float  # area that the gate swept relative to the drift, from the first floe to the last [m²]
 
     @property
     def sizes(self):
         """Sizes √area [m]."""
         return numpy.sqrt(self.areas)
-
-    @property
-    def cover(self):
-        return float(self.areas.sum() / self.swept) if self.swept > 0 else None
 
     @property
     def mean_size(self):
@@ -145,7 +140,6 @@ def passages(run, gates):
     before = numpy.full((count, 2), numpy.nan)
     has_passed = numpy.zeros((2, count), dtype=bool)
     found: list = [[], []]
-    _, ways = axes_over_time(run)
     for k, (ids, places) in enumerate(places_over_time(run, gates.body)):
         for floe in ids[numpy.isnan(before[ids, 0])].tolist():  # new floes start at the position of their ancestor
             ancestor = int(parents[floe])
@@ -163,17 +157,14 @@ def passages(run, gates):
                 if abs(y) <= 0.5 * gates.width and run.times[k] > gates.start:
                     found[line].append((int(ids[i]), float(run.times[k]), float(y)))
         before[ids] = places
-    return [passage_of(run, of, ways, gates) for of in found]
+    return [passage_of(run, of) for of in found]
 
 
-def passage_of(run, rows, ways, gates):
+def passage_of(run, rows):
     rows = sorted(rows)
-    times = [row[1] for row in rows]
-    counted = (run.times >= min(times)) & (run.times < max(times)) if rows else ways < 0
-    swept = float(ways[counted].sum()) * gates.width
     floes = numpy.array([row[0] for row in rows], dtype=int)
     return Passage(floes, numpy.array([row[1] for row in rows]), numpy.array([row[2] for row in rows]),
-                   run.births["area_m2"][floes], swept)
+                   run.births["area_m2"][floes])
 
 
 def managed_width(passage: Passage, gates) -> float:

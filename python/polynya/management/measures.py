@@ -3,6 +3,8 @@ import dataclasses
 
 import numpy
 
+from .cover import covers
+from .encounters import beyond_gate, encounters_of
 from .gates import gates_of, managed_width, managing, passages
 
 LEVELS = (0.5, 0.9, 0.99)
@@ -42,11 +44,24 @@ def rows_of(run, ship, start=0.0):
 
 
 def loads_on(run, gates):
-    """Magnitudes of the horizontal loads on the body, one per row of forces.csv [N]: by ice, and by its mooring."""
+    """Magnitudes of the horizontal loads on the body, one per row of forces.csv [N]: by ice, and by its mooring if it
+    has one."""
     rows = rows_of(run, gates.body, gates.start)
     ice = numpy.hypot(rows["surge_N"] + rows["surge_from_submerged_ice_N"], rows["sway_N"])
     mooring = numpy.hypot(rows["surge_from_mooring_N"], rows["sway_from_mooring_N"])
-    return {"ice_load": ice, "mooring_load": mooring}
+    return {"ice_load": ice, **({"mooring_load": mooring} if is_moored(run.scene, gates.body) else {})}
+
+
+def is_moored(scene, body):
+    return any(ship["name"] == body and ship.get("mooring") for ship in scene["ships"])
+
+
+def broken_moorings(run, body):
+    """Number of moorings of the body that broke; None if it has none. A ship adrift loads no mooring."""
+    if not is_moored(run.scene, body):
+        return None
+    events = run.event_columns
+    return int(numpy.count_nonzero((events["kind"] == "mooring_break") & (events["ship"] == body)))
 
 
 def effort(run, start=0.0):
@@ -71,29 +86,51 @@ def ice_lost(ledger):
     return area, area / ledger["initial_ice_area_m2"] if ledger["initial_ice_area_m2"] > 0 else 0.0
 
 
-def measures_of(run, given):
-    """Measures by name, None if there is no value. `given` is `collect.management` of a study."""
-    gates = gates_of(run, given)
-    before, after = passages(run, gates)
-    found = {}
-    for name, passage in (("upstream", before), ("at_body", after)):
+def ice_measures(run, gates):
+    """Measures of the ice that passed the gates."""
+    found, (before, after) = {}, passages(run, gates)
+    for name, passage, cover in zip(("upstream", "at_body"), (before, after), covers(run, gates)):
         found[f"floes_{name}"] = len(passage.areas)
-        found[f"cover_{name}"] = passage.cover
+        found[f"cover_{name}"] = cover
         found[f"mean_size_{name}_m"] = passage.mean_size
         found[f"largest_{name}_m"] = float(passage.sizes.max()) if len(passage.areas) else None
     found["managed_width_m"] = managed_width(after, gates)
+    return found
+
+
+def load_measures(run, gates):
+    """Measures of the loads on the body. Those of a mooring have no value if the body has none."""
+    loads, found = loads_on(run, gates), {}
+    for name in ("ice_load", "mooring_load"):
+        of = loads.get(name, ())
+        found[f"{name}_mean_N"], found[f"{name}_peak_N"] = (float(of.mean()), float(of.max())) if len(of) else (None,
+                                                                                                                None)
+        for level in LEVELS:
+            found[f"{name}_q{level * 100:g}_N"] = float(numpy.quantile(of, level)) if len(of) else None
+    found["moorings_broken"] = broken_moorings(run, gates.body)
+    return found
+
+
+def ship_measures(run, gates):
+    """Measures of the managing ships, and of encounters of the body with any other ship."""
+    ships, met = effort(run, gates.start).values(), encounters_of(run, gates.body)
+    return {"icebreakers": len(ships),
+            "icebreaker_distance_m": sum(ship["distance_m"] for ship in ships),
+            "icebreaker_energy_J": sum(ship["energy_J"] for ship in ships),
+            "ship_hits": met.hits if met else None,
+            "ship_load_peak_N": met.load if met else None,
+            "ship_distance_m": met.distance if met else None,
+            "ships_beyond_gate_s": beyond_gate(run, gates)}
+
+
+def measures_of(run, given):
+    """Measures by name, None if there is no value. `given` is `collect.management` of a study."""
+    gates = gates_of(run, given)
+    found = ice_measures(run, gates)
     hits = hits_on(run, gates)
     found["hits"], found["hit_s"] = hits[1:] if hits else (None, None)
     found["largest_hit_m"] = largest_touch(run, gates)
-    for name, loads in loads_on(run, gates).items():
-        if not len(loads):
-            continue
-        found[f"{name}_mean_N"], found[f"{name}_peak_N"] = float(loads.mean()), float(loads.max())
-        for level in LEVELS:
-            found[f"{name}_q{level * 100:g}_N"] = float(numpy.quantile(loads, level))
-    ships = effort(run, gates.start).values()
-    found["icebreakers"] = len(ships)
-    found["icebreaker_distance_m"] = sum(ship["distance_m"] for ship in ships)
-    found["icebreaker_energy_J"] = sum(ship["energy_J"] for ship in ships)
+    found.update(load_measures(run, gates))
+    found.update(ship_measures(run, gates))
     found["ice_lost_m2"], found["ice_lost_share"] = ice_lost(run.summary["ledger"])
     return {f"management_{name}": value for name, value in found.items()}

@@ -5,13 +5,15 @@ import math
 
 from ..errors import InputError
 from ..naming import leaf_in_words, names_of, parsed
-from . import ranking
+from . import cautions, ranking
 
 PREFIX = "management_"
 UNMANAGED = "not managed"
 MEASURES = {  # measures by which patterns are ranked; smaller is better
     "management_ice_load_mean_N": "mean load of the ice [N]",
-    "management_ice_load_q99_N": "load exceeded 1 % of the time [N]",
+    "management_ice_load_q99_N": "load of the ice exceeded 1 % of the time [N]",
+    "management_mooring_load_mean_N": "mean load of the mooring [N]",
+    "management_mooring_load_q99_N": "load of the mooring exceeded 1 % of the time [N]",
     "management_largest_at_body_m": "largest floe that arrives [m]",
 }
 SEEDS = ("seed", "repetition")
@@ -27,7 +29,12 @@ class Condition:
     lost: dict  #: pattern -> {field: (area of ice that left the scene [m²], its fraction of all ice)}
 
     def ranked(self, measure):
-        return ranking.ranking(self.values.get(measure, {}), UNMANAGED)
+        """Patterns by a measure. A measure that is 0 in every case ranks nothing, and neither does a condition in which
+        no ice arrived."""
+        values = self.values.get(measure, {})
+        if not cautions.has_arrived(self) or not any(value for of in values.values() for value in of.values()):
+            return []
+        return ranking.ranking(values, UNMANAGED)
 
 
 @dataclasses.dataclass
@@ -42,6 +49,7 @@ class Found:
     conditions: list
     patterns: list  #: names of patterns in the order of the study
     measures: list
+    body: str  #: name of the protected body
 
 
 def different(table, name):
@@ -105,10 +113,22 @@ def value_in_words(name, value):
     return leaf_in_words((keys[-1],), x_of(name, value))
 
 
+def names_of_values(values):
+    """{value: name} of the values of a parameter. If only one of them is a pilot that manages ice, its pattern is its
+    name, because it differs from the others in everything."""
+    names = names_of(values)
+    managing = {value: parsed(value)["manage"] for value in names
+                if isinstance(parsed(value), dict) and isinstance(parsed(value).get("manage"), dict)}
+    if len(managing) == 1 and len(names) > 1:
+        (value, pilot), = managing.items()
+        names[value] = str(pilot.get("pattern", names[value])).replace("_", " ")
+    return names
+
+
 def pattern_names(table, by):
     """{values: name} of the patterns, formed from the differences. Patterns without a managing ship are named as not
     managed."""
-    names = {name: names_of([str(value) for value in table[name]]) for name in by}
+    names = {name: names_of_values([str(value) for value in table[name]]) for name in by}
     found = {}
     for row in table:
         key = tuple(str(row[name]) for name in by)
@@ -156,7 +176,8 @@ def read(folder):
     patterns = pattern_names(rows, by)
     conditions = conditions_of(rows, by, against, rest, patterns, measures)
     names = list(dict.fromkeys(patterns.values()))
-    return Found(study.name, len(rows), len(table), by, against, conditions, names, measures)
+    body = study.plan.get("collect", {}).get("management", {}).get("body") or "the protected body"
+    return Found(study.name, len(rows), len(table), by, against, conditions, names, measures, body)
 
 
 def in_json(found):
@@ -164,10 +185,15 @@ def in_json(found):
     def of(mean):
         return None if mean is None else dataclasses.asdict(mean)
 
+    def hits(condition):
+        known = {name: cautions.hits_of(condition, name) for name in found.patterns}
+        return {name: dataclasses.asdict(hits) for name, hits in known.items() if hits}
+
     return json.dumps({
-        "study": found.name, "finished": found.finished, "cases": found.cases, "by": found.by, "against": found.against,
+        "study": found.name, "warnings": cautions.of_study(found), "finished": found.finished, "cases": found.cases,
+        "by": found.by, "against": found.against,
         "conditions": [{
-            "name": condition.name, "x": condition.x,
+            "name": condition.name, "x": condition.x, "contacts": hits(condition),
             "ranking": {measure: [dataclasses.asdict(place) for place in condition.ranked(measure)]
                         for measure in MEASURES if measure in found.measures},
             "means": {measure: {pattern: of(ranking.mean_of(values.values())) for pattern, values in of_pattern.items()}

@@ -2,8 +2,8 @@
 from matplotlib.lines import Line2D
 
 from ..figures.page import Sheet, plain
-from ..naming import UNITS
-from . import ranking
+from ..naming import UNITS, short
+from . import cautions, ranking
 from .figure import COLOURS
 from .study import MEASURES, UNMANAGED
 
@@ -11,15 +11,21 @@ LINES = [{"color": colour, "marker": mark, "linestyle": dash}
          for dash, mark in (("-", "o"), ("--", "s")) for colour in COLOURS]
 SHOWN = {
     "management_ice_load_mean_N": "mean load of the ice",
-    "management_ice_load_q99_N": "load exceeded 1 % of the time",
+    "management_ice_load_q99_N": "load of the ice exceeded 1 % of the time",
+    "management_mooring_load_mean_N": "mean load of the mooring",
+    "management_mooring_load_q99_N": "load of the mooring exceeded 1 % of the time",
     "management_largest_at_body_m": "largest floe that arrives",
     "management_mean_size_at_body_m": "mean floe size at the body, by area",
     "management_hit_s": "time with floes of the size on the body",
     "management_managed_width_m": "managed width",
 }
-MOST_PATTERNS = 24  # largest number of patterns in a panel of the ranking
+MOST_NOTES = 4  # largest number of warnings below a figure
+FEWEST_PATTERNS, MOST_PATTERNS = 8, 24  # limits of the number of patterns in a panel of the ranking
+OF_PANEL = 14  # height of a panel of the ranking without its patterns [mm]
 MANY = 12  # with more points on the x axis, intervals are drawn as bands
 ROW = 5.2  # height of a pattern in the ranking [mm]
+HIT = "#d55e00"  # colour of a pattern whose ship hit the protected body
+WIDEST = 4  # the axis of a ranking ends at this multiple of the largest mean; wider intervals end in an arrow
 
 
 def scaled(measure, most):
@@ -30,18 +36,38 @@ def scaled(measure, most):
     return 1, unit
 
 
-def draw_place(axes, place, y, factor, page):
-    """Draws mean and interval of a pattern, with its name above."""
-    colour = "0.45" if place.name == UNMANAGED else COLOURS[0]
-    half = 0 if place.mean.half is None else place.mean.half / factor
-    scale = page.style.scale
-    axes.errorbar(place.mean.value / factor, y + 0.2, xerr=half, fmt="o", markersize=3 * scale, capsize=2 * scale,
-                  color=colour, linewidth=scale)
-    axes.text(0.01, y - 0.25, plain(place.name), fontsize=page.style.small, transform=axes.get_yaxis_transform(),
-              verticalalignment="center")
+def end_of_axis(places, factor):
+    """End of the axis of a ranking: near the largest end of an interval, but no farther than WIDEST times the largest
+    mean, so that means stay apart beside intervals that are far wider."""
+    means = [place.mean.value / factor for place in places]
+    ends = [mean + (place.mean.half or 0) / factor for mean, place in zip(means, places)]
+    return min(1.05 * max(ends), WIDEST * max(means)) or 1
 
 
-def bracket_alike(axes, places):
+def fitted(sheet, name, ending, width):
+    """A name with its ending, with the name shortened in the middle until both are at most `width` wide [mm]."""
+    most, words = len(name), plain(name) + ending
+    while sheet.width_of(words, sheet.page.style.small) > width and most > 5:
+        most -= 1
+        words = plain(short(name, most)) + ending
+    return words
+
+
+def draw_place(axes, place, y, factor, page, hits, words):
+    """Draws mean and interval of a pattern, with `words` above: its name, and its hits of a ship if it has some. An
+    interval ends at 0, below which none of the measures lies, or at the end of the axis, with an arrow."""
+    is_hit, most = bool(hits and hits.hit), axes.get_xlim()[1]
+    colour = HIT if is_hit else "0.45" if place.name == UNMANAGED else COLOURS[0]
+    mean, half, scale = place.mean.value / factor, (place.mean.half or 0) / factor, page.style.scale
+    axes.errorbar(mean, y + 0.2, xerr=[[min(half, mean)], [min(half, most - mean)]], fmt="X" if is_hit else "o",
+                  markersize=3 * scale, capsize=2 * scale, color=colour, linewidth=scale)
+    if mean + half > most:
+        axes.plot(most, y + 0.2, ">", color=colour, markersize=3.5 * scale, clip_on=False)
+    axes.text(0.01, y - 0.25, words, fontsize=page.style.small, transform=axes.get_yaxis_transform(),
+              verticalalignment="center", color=HIT if is_hit else "black", in_layout=False)
+
+
+def bracket_alike(axes, places, scale):
     """Draws a bar beside each group of patterns that do not differ significantly."""
     names = [place.name for place in places]
     groups = ranking.alike(places)
@@ -51,19 +77,28 @@ def bracket_alike(axes, places):
         ends = names.index(group[0]), names.index(group[-1])
         x = 1 - 0.03 * (k + 1) / (1 + 0.04 * (len(groups) + 1))
         axes.plot((x, x), (ends[0] - 0.05, ends[1] + 0.45), transform=axes.get_yaxis_transform(), color="0.35",
-                  linewidth=1.6, solid_capstyle="butt")
+                  linewidth=1.6 * scale, solid_capstyle="butt")
 
 
-def draw_places(sheet, axes, measure, condition, width):
-    """Draws the patterns of one condition by one measure, best first."""
+def most_places(page, lines):
+    """Largest number of patterns in a panel, so that `lines` rows of panels fit onto a page if possible."""
+    room = (page.style.tallest / page.style.scale - 30) / lines - OF_PANEL
+    return max(FEWEST_PATTERNS, min(MOST_PATTERNS, int(room / ROW)))
+
+
+def draw_places(sheet, axes, measure, condition, width, most):
+    """Draws at most `most` patterns of one condition by one measure, best first. Returns the number of the others."""
     page = sheet.page
     every = condition.ranked(measure)
-    places = every[:MOST_PATTERNS]
+    places = every[:most]
     factor, unit = scaled(measure, max((abs(place.mean.value) for place in places), default=0))
+    axes.set_xlim(0, end_of_axis(places, factor) if places else 1)
     for y, place in enumerate(places):
-        draw_place(axes, place, y, factor, page)
-    axes.set_xlim(min(0, axes.get_xlim()[0]), axes.get_xlim()[1])
-    bracket_alike(axes, places)
+        hits = cautions.hits_of(condition, place.name)
+        ending = f" (hit in {hits.hit} of {hits.fields})" if hits and hits.hit else ""
+        words = fitted(sheet, place.name, ending, width - 2 * page.style.scale)
+        draw_place(axes, place, y, factor, page, hits, words)
+    bracket_alike(axes, places, page.style.scale)
     axes.set(ylim=(max(len(places), 1) - 0.4, -0.6), yticks=[])
     axes.set_xlabel("\n".join(sheet.wrapped(f"{SHOWN[measure]}, {unit}", page.style.text, width)))
     axes.grid(axis="x", linewidth=0.4, color="0.9")
@@ -74,28 +109,33 @@ def draw_places(sheet, axes, measure, condition, width):
 def draw_ranking(found, page):
     """Draws, for each condition and measure, the patterns with their intervals, best first. Bars join patterns that do
     not differ significantly."""
-    measures = [name for name in MEASURES if any(condition.values.get(name) for condition in found.conditions)]
-    every = [condition for condition in found.conditions if any(condition.values.get(name) for name in measures)]
+    measures = [name for name in MEASURES if any(condition.ranked(name) for condition in found.conditions)]
+    every = [condition for condition in found.conditions if any(condition.ranked(name) for name in measures)]
     if not every:
         return None
     columns = page.columns_for(len(measures))
     lines = -(-len(measures) // columns)
-    height = (14 + ROW * max(2, min(len(found.patterns), MOST_PATTERNS))) * page.style.scale
+    most = most_places(page, lines)
+    height = (OF_PANEL + ROW * max(2, min(len(found.patterns), most))) * page.style.scale
     drawn = every[:max(1, int((page.style.tallest - 30 * page.style.scale) / (height * lines)))]
     caption = "Means over fields of ice with Student's 95 % intervals; a bar joins what is not distinguishable"
+    if cautions.contacts(found):
+        caption += f"; cross: a ship hit {found.body}"
+    serious = [*cautions.few_fields(found), *cautions.contacts(found)]
     width = page.width / columns - 8 * page.style.scale
     with Sheet(page, f"Patterns ranked: {plain(found.name)}", caption) as sheet:
         grid = sheet.panels(lines * len(drawn), columns)
         hidden = 0
         for k, condition in enumerate(drawn):
-            panels = grid[k * lines:(k + 1) * lines].flat
+            panels = list(grid[k * lines:(k + 1) * lines].flat)
             for axes, measure in zip(panels, measures):
-                hidden = max(hidden, draw_places(sheet, axes, measure, condition, width))
-            for axes in list(panels)[len(measures):]:
+                hidden = max(hidden, draw_places(sheet, axes, measure, condition, width, most))
+            for axes in panels[len(measures):]:
                 axes.axis("off")
             grid[k * lines, 0].set_title(plain(condition.name), loc="left", fontsize=page.style.text, fontweight="bold")
         missing = [(len(every) - len(drawn), "conditions"), (hidden, "patterns")]
         note = [f"{count} more {what} are in management-ranking.csv." for count, what in missing if count > 0]
+        note += [plain(sentence) for sentence in serious[:MOST_NOTES]]
         return sheet.finish(height * lines * len(drawn), notes=note)
 
 
@@ -137,7 +177,8 @@ def draw_study(found, page):
                           for x, mean in zip(xs, means[name]) if mean]
                 if points:
                     draw_line(axes, points, LINES[k], is_dense)
-            axes.set(xlabel=words_of(found.against), ylim=(0, None))
+            highest = max((mean.value + (mean.half or 0) for of in means.values() for mean in of if mean), default=0)
+            axes.set(xlabel=words_of(found.against), ylim=(0, 1.08 * highest / factor or 1))
             sheet.label_y(axes, f"{SHOWN[measure]}, {unit}", page.row_height(rows, 48))
         for axes in list(grid.flat)[len(shown):]:
             axes.axis("off")

@@ -2,7 +2,7 @@
 import csv
 
 from ..files import writing
-from . import ranking
+from . import cautions, ranking
 from .study import MEASURES, UNMANAGED
 
 UNITS = {"[N]": ((1e6, "MN"), (1e3, "kN"), (1, "N")), "[m]": ((1, "m"),)}
@@ -63,18 +63,35 @@ def not_told_apart(places):
     return [f"Not distinguishable: {listed(group)}." for group in groups]
 
 
+def hit(condition, name):
+    """"1 of 6" fields in which a ship hit the protected body; an empty text without contacts."""
+    found = cautions.hits_of(condition, name)
+    return f"{found.hit} of {found.fields}" if found and found.hit else ""
+
+
+def of_first(condition, places, body):
+    """A sentence if the first pattern of a ranking is one whose ship hit the protected body."""
+    hits = cautions.hits_of(condition, places[0].name)
+    if not hits or not hits.hit:
+        return []
+    return [f"{places[0].name} comes first, but is not the best: a ship hit {body} in {hits.hit} of {hits.fields} "
+            "fields."]
+
+
 def table_of(condition, measure):
-    """Rows of text: rank, pattern, mean, remaining load, benefit, lost ice."""
+    """Rows of text: rank, pattern, mean, remaining load, benefit, lost ice, fields with a hit of a ship."""
     places = condition.ranked(measure)
     if not places:
         return [], "", places
     factor, unit = unit_of(measure, max(abs(place.mean.value) for place in places))
     has_base = any(place.benefit for place in places)
+    has_hits = any(hit(condition, place.name) for place in places)
     head = ["", "pattern", f"mean [{unit}]", *((["of unmanaged", f"less by [{unit}]"]) if has_base else []),
-            "ice lost by rule", "fields"]
+            "ice lost by rule", "fields", *(["hit by a ship in"] if has_hits else [])]
     rows = [[f"{rank}.", place.name, interval(place.mean, factor),
              *([left(place), interval(place.benefit, factor) if place.benefit else ""] if has_base else []),
-             lost(condition, place.name), str(place.mean.count)] for rank, place in enumerate(places, 1)]
+             lost(condition, place.name), str(place.mean.count), *([hit(condition, place.name)] if has_hits else [])]
+            for rank, place in enumerate(places, 1)]
     return [head, *rows], unit, places
 
 
@@ -84,8 +101,22 @@ def aligned(rows):
                              for k, (cell, width) in enumerate(zip(row, widths))).rstrip() for row in rows]
 
 
+def lines_of_ships(found):
+    """A table of the encounters of the protected body with other ships."""
+    rows = [["", "pattern", "fields with a hit", "largest load of a hit", "closest distance"]]
+    for condition in found.conditions:
+        hits = {name: cautions.hits_of(condition, name) for name in found.patterns}
+        rows += [[condition.name, name, f"{of.hit} of {of.fields}", cautions.force(of.load) if of.hit else "-",
+                  f"{three(of.closest)} m"] for name, of in hits.items() if of]
+    if len(rows) > 1:
+        yield ""
+        yield f"other ships and {found.body}: hits in the whole run, distance between the waterlines"
+        yield from aligned(rows)
+
+
 def lines_of(found):
-    """Returns the lines that the command prints."""
+    """Returns the lines that the command prints. Warnings come first."""
+    yield from (f"WARNING: {sentence}" for sentence in cautions.of_study(found))
     yield f"{found.name}: {found.finished} of {found.cases} cases; patterns by {', '.join(found.by)}"
     for condition in found.conditions:
         for measure, words in MEASURES.items():
@@ -95,7 +126,11 @@ def lines_of(found):
             yield ""
             yield f"{words.rpartition(' [')[0]}{', ' + condition.name if condition.name else ''}"
             yield from aligned(rows)
-            yield from (f"  {sentence}" for sentence in not_told_apart(places))
+            yield from (f"  {sentence}" for sentence in (*of_first(condition, places, found.body),
+                                                         *not_told_apart(places)))
+    yield from lines_of_ships(found)
+    if not any(condition.ranked(measure) for condition in found.conditions for measure in MEASURES):
+        return
     yield ""
     if UNMANAGED not in found.patterns:
         yield ('No case is without management, so no benefit is stated: add the pilot {"constant": {"lever": 0}}, far '
@@ -112,16 +147,18 @@ def write_ranking(found, path):
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["condition", "measure", "rank", "pattern", "fields", "mean", "half_of_95_percent",
                          "of_unmanaged", "of_unmanaged_low", "of_unmanaged_high", "less_by",
-                         "less_by_half_of_95_percent", "ice_lost_m2", "ice_lost_share", "not_distinguishable_from"])
+                         "less_by_half_of_95_percent", "ice_lost_m2", "ice_lost_share", "fields_hit_by_a_ship",
+                         "largest_load_of_a_hit_N", "closest_ship_m", "not_distinguishable_from"])
         for condition in found.conditions:
             for measure in MEASURES:
                 for rank, place in enumerate(condition.ranked(measure), 1):
                     areas = condition.lost.get(place.name, {}).values()
                     mean_lost = [sum(column) / len(areas) for column in zip(*areas)] if areas else ["", ""]
-                    benefit = place.benefit
+                    benefit, hits = place.benefit, cautions.hits_of(condition, place.name)
                     writer.writerow([condition.name, measure, rank, place.name, place.mean.count, place.mean.value,
                                      place.mean.half, *(place.left or ("", "", "")),
                                      benefit.value if benefit else "", benefit.half if benefit else "", *mean_lost,
+                                     *((hits.hit, hits.load, hits.closest) if hits else ("", "", "")),
                                      "; ".join(place.like)])
 
 

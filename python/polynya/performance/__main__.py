@@ -13,7 +13,7 @@ from ..runs_kept import RunFailed
 from ..study.case import DONE, FAILED, STOPPED
 from . import coefficients, sensitivity
 from .curve import BEYOND, THICKER, Curve, formula_words, mark_of
-from .options import FLEXURAL_STRENGTH, FRICTION, STEP, command_line
+from .options import FLEXURAL_STRENGTH, FRICTION, STEP, read_options
 from .tables import write_table
 
 INPUT_OUTPUT = 5  # exit code of app/command_line/console.hpp
@@ -114,7 +114,7 @@ def print_formulas(curve, wanted):
         print(f"{h:7g}{speeds['lindqvist']:11.2f}{speeds['riska']:8.2f}{speeds['spencer_jones']:15.2f}")
 
 
-def draw_figure(path, rows, found, ice):
+def draw_figure(path, rows, found, ice, curve):
     """Draws the picture; without matplotlib prints a line that says so."""
     try:
         from . import figure
@@ -123,12 +123,12 @@ def draw_figure(path, rows, found, ice):
         return
     title = [f"{found['title']}: level ice, full power",
              f"σf {ice.flexural_strength / 1e3:g} kPa, μ {ice.friction:g}"]
-    figure.draw(rows, "\n".join(title), found["reported"], path)
+    figure.draw(rows, "\n".join(title), found["reported"], path, figure.formula_rows(curve, rows))
     print(f"figure  {path}")
 
 
 def main():
-    arguments = command_line().parse_args()
+    arguments = read_options()
     try:
         found = ship_of(arguments.ship)
     except OSError as error:
@@ -166,7 +166,7 @@ def main():
     print()
     write_table(os.path.join(folder, "performance.csv"), rows)
     write_table(os.path.join(folder, "sensitivity.csv"), sensitivity.as_rows(moves, wanted))
-    draw_figure(os.path.join(folder, "performance.png"), rows, found, ice)
+    draw_figure(os.path.join(folder, "performance.png"), rows, found, ice, curve)
     return DONE
 
 

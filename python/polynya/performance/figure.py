@@ -2,8 +2,10 @@
 import matplotlib
 
 matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.lines import Line2D  # noqa: E402
+from matplotlib.patches import Patch  # noqa: E402
 
+from ..figures.page import Page, Sheet  # noqa: E402
 from ..files import naming  # noqa: E402
 from ..formulas import KNOT  # noqa: E402
 from .curve import VALIDATED_THICKNESS, formula_words  # noqa: E402
@@ -13,63 +15,88 @@ FORMULAS = (
     ("riska", "Riska 1997", "--"),
     ("spencer_jones", "Spencer, Jones 2001", ":"),
 )
+BLUE, RED = "#0072b2", "#d55e00"
+WIDTH, HEIGHT = 130, 75  # width of the page, height of the panel [mm]
+AROUND = 0.3  # range of thickness shown beside a single one, as a fraction of it
+POINTS = 40  # number of thicknesses for which the formulas are drawn
+THICK = {"marker": "o", "markersize": 3.5, "color": BLUE, "markerfacecolor": "white", "linestyle": "none"}
+BEYOND = {"marker": "s", "markersize": 7, "color": RED, "markerfacecolor": "none", "linestyle": "none"}
+REPORTED = {"marker": "^", "markersize": 5, "color": RED, "linestyle": "none"}
 
 
-def draw(rows, title, reported, path):
-    """Writes the picture in the format of the path's extension."""
+def thicknesses_of(rows):
+    """Thicknesses for which the formulas are drawn: from the thinnest to the thickest row, and around a single one."""
+    every = [row["thickness_m"] for row in rows]
+    low, high = min(every), max(every)
+    if low == high:
+        low, high = (1 - AROUND) * low, (1 + AROUND) * high
+    return [low + (high - low) * k / (POINTS - 1) for k in range(POINTS)]
+
+
+def formula_rows(curve, rows):
+    """Speeds by the formulas over the range of the figure."""
+    return [{"thickness_m": h, **{f"{name}_m_per_s": v for name, v in curve.formula_speeds(h).items()}}
+            for h in thicknesses_of(rows)]
+
+
+def draw_formulas(axes, rows):
+    """Draws the formulas and their band; at a single thickness as marks. Returns the legend entries."""
     thickness = [row["thickness_m"] for row in rows]
-    plt.rcParams.update({"font.size": 8, "axes.spines.top": False, "axes.spines.right": False})
-    figure, axes = plt.subplots(figsize=(4.7, 3.4), constrained_layout=True)
-    band = [[row[f"{name}_m_per_s"] for name, _, _ in FORMULAS] for row in rows]
-    axes.fill_between(
-        thickness,
-        [min(b) for b in band],
-        [max(b) for b in band],
-        color="0.9",
-        linewidth=0,
-        label="band of the formulas",
-    )
-    for name, label, style in FORMULAS:
-        axes.plot(thickness, [row[f"{name}_m_per_s"] for row in rows], style, color="0.35", linewidth=0.9, label=label)
-    axes.errorbar(
-        thickness,
-        [row["speed_m_per_s"] for row in rows],
-        yerr=[1.96 * row["error_m_per_s"] for row in rows],
-        fmt="o-",
-        color="#0072b2",
-        markersize=3.5,
-        linewidth=1.2,
-        capsize=2,
-        label="Polynya, ± 95 % of the run's own scatter",
-    )
+    speeds = [[row[f"{name}_m_per_s"] for name, _, _ in FORMULAS] for row in rows]
+    mark = "_" if len(rows) == 1 else ""
+    axes.fill_between(thickness, list(map(min, speeds)), list(map(max, speeds)), color="0.9", linewidth=0)
+    handles = [Patch(color="0.9", label="band of the formulas")]
+    for name, label, dash in FORMULAS:
+        style = {"linestyle": dash, "color": "0.35", "linewidth": 0.9, "marker": mark}
+        axes.plot(thickness, [row[f"{name}_m_per_s"] for row in rows], **style)
+        handles.append(Line2D([], [], label=label, **style))
+    return handles
+
+
+def draw_points(axes, rows):
+    """Draws the points of the simulation with their marks. Returns the legend entries."""
+    thickness, speed = ([row[key] for row in rows] for key in ("thickness_m", "speed_m_per_s"))
+    scatter = [1.96 * row["error_m_per_s"] for row in rows]
+    of_points = axes.errorbar(thickness, speed, yerr=scatter, fmt="o-", color=BLUE, markersize=3.5, linewidth=1.2,
+                              capsize=2, label="Polynya, ± 95 % of the run's own scatter")
+    handles = [of_points]
     if words := formula_words(rows):
-        axes.plot([], [], linestyle="none", label=words)
+        handles.append(Line2D([], [], linestyle="none", label=words))
     thicker = [row for row in rows if not row["is_in_validated_range"]]
     beyond = [row for row in rows if row["beyond_formulas"]]
-    for marked, words, style in (
-        (thicker, f"thicker than {VALIDATED_THICKNESS:g} m: outside validation",
-         {"marker": "o", "markersize": 3.5, "color": "#0072b2", "markerfacecolor": "white"}),
-        (beyond, None, {"marker": "o", "markersize": 3.5, "color": "#0072b2", "markerfacecolor": "white"}),
-        (beyond, "outside the band of the formulas",
-         {"marker": "s", "markersize": 7, "color": "#d55e00", "markerfacecolor": "none"}),
-    ):
+    for marked, words, style in ((thicker, f"thicker than {VALIDATED_THICKNESS:g} m: outside validation", THICK),
+                                 (beyond, "", THICK), (beyond, "outside the band of the formulas", BEYOND)):
         if marked:
             at = [[row[key] for row in marked] for key in ("thickness_m", "speed_m_per_s")]
-            axes.plot(*at, linestyle="none", zorder=3, label=words, **style)
-    if reported:
-        axes.plot(
-            [r["thickness_m"] for r in reported],
-            [r["speed_m_per_s"] for r in reported],
-            "^",
-            color="#d55e00",
-            markersize=5,
-            linestyle="none",
-            label="design points: at least",
-        )
-    axes.set(xlabel="thickness of level ice [m]", ylabel="speed [m/s]", ylim=(0, None), title=title)
-    right = axes.secondary_yaxis("right", functions=(lambda v: v / KNOT, lambda v: v * KNOT))
-    right.set_ylabel("[kn]")
-    axes.legend(frameon=False, fontsize=7)
+            axes.plot(*at, zorder=3, **style)
+            handles += [Line2D([], [], label=words, **style)] if words else []
+    return handles
+
+
+def draw_reported(axes, reported):
+    """Draws the design points. Returns the legend entry."""
+    if not reported:
+        return []
+    axes.plot([point["thickness_m"] for point in reported], [point["speed_m_per_s"] for point in reported], **REPORTED)
+    return [Line2D([], [], label="design points: at least", **REPORTED)]
+
+
+def draw(rows, title, reported, path, of_formulas=None):
+    """Writes the picture in the format of the path's extension. `of_formulas` are rows of the formulas' speeds, those
+    of the points if not given."""
+    title, _, caption = title.partition("\n")
+    page = Page(given_width=WIDTH)
+    with Sheet(page, title, caption) as sheet:
+        axes = sheet.panels(1, 1)[0, 0]
+        handles = draw_formulas(axes, of_formulas or rows) + draw_points(axes, rows) + draw_reported(axes, reported)
+        of_right = [row["thickness_m"] for row in (of_formulas or rows)] + [r["thickness_m"] for r in reported]
+        low, high = min(of_right), max(of_right)
+        margin = 0.03 * (high - low) or AROUND * high
+        axes.set(xlabel="thickness of level ice, m", ylabel="speed, m/s", xlim=(low - margin, high + margin),
+                 ylim=(0, 1.08 * axes.get_ylim()[1]))
+        right = axes.secondary_yaxis("right", functions=(lambda v: v / KNOT, lambda v: v * KNOT))
+        right.set_ylabel("speed, kn")
+        right.tick_params(labelsize=page.style.small)
+        figure = sheet.finish(HEIGHT, handles)
     with naming(path):
         figure.savefig(path, dpi=200)
-    plt.close(figure)

@@ -6,6 +6,21 @@ from ..arguments import Parser, number, numbers
 FLEXURAL_STRENGTH, FRICTION = 500e3, 0.1  # defaults of the command line [Pa], [-]
 STEP = 0.01  # time step of the runs in level ice at full power [s]
 
+# Values of options that are not given.
+DEFAULTS = {"error": 0.03, "fields": 2, "jobs": os.cpu_count() or 1}
+OF_ICE = {"thickness", "flexural_strength", "friction"}
+OF_RUNS = {"step", "out", "jobs"}
+OF_FIELDS = {"cover", "floe_size", "fields"}
+# Options that each use of the command reads. An option that a use does not read is refused.
+USES = {
+    "the speed in level ice": OF_ICE | OF_RUNS | {"error"},
+    "--list": OF_ICE,
+    "--pack": OF_ICE | OF_RUNS | OF_FIELDS | {"speed"},
+    "--level": OF_ICE | OF_RUNS | {"speed"},
+    "--channel": OF_ICE | OF_RUNS | OF_FIELDS | {"speed"},
+    "--channel --list": set(),
+}
+
 EXAMPLES = (
     "performance polaris                       ten thicknesses, on all processors",
     "performance araon --flexural-strength 630e3 --friction 0.1",
@@ -49,7 +64,7 @@ def add_coefficients(parser):
     meaning = "Floe sizes for --pack and --channel [m]; 20,40 and 2 if not given"
     parser.add("--floe-size", meaning, type=values(number(0.5, 1000, "m")), metavar="LIST")
     meaning = "Number of random ice fields per point of the table; 2 if not given"
-    parser.add("--fields", meaning, type=number(1, 1000, kind=int), default=2, metavar="N")
+    parser.add("--fields", meaning, type=number(1, 1000, kind=int), metavar="N")
 
 
 def command_line():
@@ -65,14 +80,46 @@ def command_line():
     meaning = f"Coefficient of friction of ice on the hull; {FRICTION:g} if not given"
     parser.add("--friction", meaning, type=number(0, 2), metavar="MU")
     meaning = "Largest accepted error of a mean speed, as a fraction of the speed; 0.03 if not given"
-    parser.add("--error", meaning, type=number(0, 1, is_open=True), default=0.03, metavar="SHARE")
+    parser.add("--error", meaning, type=number(0, 1, is_open=True), metavar="SHARE")
     meaning = "Time step [s]; 0.01 if not given, or with --pack, --level and --channel the default of a scene"
     parser.add("--step", meaning, type=number(1e-5, 1, "s"), metavar="S")
     meaning = "Folder for the runs, the table and the figure; runs/performance-SHIP if not given"
     parser.add("--out", meaning, metavar="DIR")
     meaning = "Number of runs at a time; one per processor if not given"
-    parser.add("--jobs", meaning, type=number(1, 1024, kind=int), default=os.cpu_count() or 1, metavar="N")
+    parser.add("--jobs", meaning, type=number(1, 1024, kind=int), metavar="N")
     add_coefficients(parser)
     parser.add("--list", "Print only the speeds by the formulas, with --channel the ice class rules, without a run",
                action="store_true")
     return parser
+
+
+def use_of(arguments):
+    """The use of the command that the options ask for: a key of USES, if there is such a use."""
+    regime = next((f"--{name}" for name in ("pack", "level", "channel") if getattr(arguments, name)), "")
+    return " ".join(filter(None, [regime, "--list" if arguments.list else ""])) or next(iter(USES))
+
+
+def problem_of(arguments):
+    """What is wrong with options that are valid one by one: an option that the use of the command does not read. An
+    empty text if nothing is."""
+    use = use_of(arguments)
+    if use not in USES:
+        return (f"--list: {use.partition(' ')[0]} has nothing to print without a run; allowed: --list alone, which "
+                "prints the speeds by the formulas, or --channel --list, which prints the ice class rules")
+    for name in sorted(set().union(*USES.values()) - USES[use]):
+        if getattr(arguments, name) is not None:
+            others = ", ".join(other for other, names in USES.items() if name in names)
+            return f"--{name.replace('_', '-')}: {use} does not use it; it is for: {others}"
+    return ""
+
+
+def read_options(words=None):
+    """Reads the command line, ends the command if it is wrong, and fills in the values that were not given."""
+    parser = command_line()
+    arguments = parser.parse_args(words)
+    if problem := problem_of(arguments):
+        parser.error(problem)
+    for name, value in DEFAULTS.items():
+        if getattr(arguments, name) is None:
+            setattr(arguments, name, value)
+    return arguments

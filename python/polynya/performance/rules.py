@@ -5,6 +5,7 @@ from .. import ice_class
 from ..formulas import hull_of
 from ..ice_class import KNOT, SPEED, SUPER, THICKNESS
 
+WIDTHS = (8, 11, 10, 8, 7, 9, 9, 13, 20)  # widths of the table's columns after the class [characters]
 DIAMETER_OVER_DRAUGHT = 0.65  # of a propeller whose diameter nobody states (recall)
 
 
@@ -52,27 +53,31 @@ def rows(ship, points):
     return found
 
 
-def shown(value, scale, width, digits=0):
-    """A number in a column; a dash for none."""
-    return f"{'-':>{width}}" if value == "" or math.isnan(value) else f"{value * scale:{width}.{digits}f}"
+def shown(value, scale, digits):
+    """A number of a cell; a dash for none."""
+    return "-" if value == "" or math.isnan(value) else f"{value * scale:.{digits}f}"
 
 
 def print_table(found, ship):
     """Prints resistance and minimum power by class, with what the rules' numbers rest on."""
     print()
-    print(f"{'class':<9}{'H_M [m]':>8}{'R_ch [kN]':>11}{'± fields':>10}{'by the rule':>13}{'bow':>6}{'midbody':>9}"
-          f"{'P [MW]':>9}{'rule, fixed':>13}{'rule, controllable':>20}")
+    for heads in (("class", "H_M", "R_ch", "± fields", "rule", "bow", "midbody", "P", "rule, fixed",
+                   "rule, controllable"),
+                  ("", "[m]", "[kN]", "[kN]", "[kN]", "[kN]", "[kN]", "[MW]", "[MW]", "[MW]")):
+        print(f"{heads[0]:<9}" + "".join(f"{head:>{width}}" for head, width in zip(heads[1:], WIDTHS)))
     for row in found:
-        print(f"{row['class']:<9}{row['thickness_m']:8g}{shown(row['computed_N'], 1e-3, 11)}"
-              f"{shown(row['computed_error_N'], 1e-3, 10, 1)}{shown(row['rule_N'], 1e-3, 13)}"
-              f"{shown(row['rule_bow_N'], 1e-3, 6)}{shown(row['rule_midbody_N'], 1e-3, 9)}"
-              f"{shown(row['computed_power_fixed_pitch_W'], 1e-6, 9, 2)}"
-              f"{shown(row['rule_power_fixed_pitch_W'], 1e-6, 13, 2)}"
-              f"{shown(row['rule_power_controllable_pitch_W'], 1e-6, 20, 2)}")
+        cells = (f"{row['thickness_m']:g}", *(shown(row[key], scale, digits) for key, scale, digits in (
+            ("computed_N", 1e-3, 0), ("computed_error_N", 1e-3, 1), ("rule_N", 1e-3, 0), ("rule_bow_N", 1e-3, 0),
+            ("rule_midbody_N", 1e-3, 0), ("computed_power_fixed_pitch_W", 1e-6, 2),
+            ("rule_power_fixed_pitch_W", 1e-6, 2), ("rule_power_controllable_pitch_W", 1e-6, 2))))
+        print(f"{row['class']:<9}" + "".join(f"{cell:>{width}}" for cell, width in zip(cells, WIDTHS)))
     number, diameter = propellers_of(ship)
     is_stated = "propeller_diameter_m" in ship.get("propulsion", {}).get("engine", {})
-    print(f"R_ch, P: computed at {SPEED / KNOT:g} knots; P by the rules' factor from it, for {number} propeller"
-          f"{'s' if number > 1 else ''} of {diameter:.3g} m with fixed pitch"
-          f"{'' if is_stated else f' (nobody stated the diameter: {DIAMETER_OVER_DRAUGHT:g} draughts)'}")
+    if all(row["computed_N"] == "" for row in found):
+        print("R_ch, P: not computed without runs (polynya performance SHIP --channel, without --list)")
+    unstated = "" if is_stated else f" (nobody stated the diameter: {DIAMETER_OVER_DRAUGHT:g} draughts)"
+    print(f"H_M: thickness of the brash in the middle. R_ch, P: computed at {SPEED / KNOT:g} knots; P by the rules' "
+          f"factor from it,\nfor {number} propeller{'s' if number > 1 else ''} of {diameter:.3g} m with fixed "
+          f"pitch{unstated}")
     print("rule: Finnish-Swedish ice class rules (recall); at least 2.8 MW for IA Super and 1 MW for the others. The "
           "frozen\nlayer of IA Super is not computed here (docs/brash.md).")

@@ -1,0 +1,15 @@
+"""Numbers and durations as people read them."""
+
+
+def plain(value):
+    """A number with three digits, without an exponent: 0.0123, 1250, 40000."""
+    rounded = float(f"{value:.3g}")
+    return f"{rounded:.0f}" if abs(rounded) >= 100 else f"{rounded:.4g}"
+
+
+def in_hours(value):
+    """A duration given in hours, in a suitable unit: 90 s, 12 min, 3.5 h."""
+    for most, unit, name in ((1 / 30, 3600, "s"), (0.9995, 60, "min")):
+        if value < most:
+            return f"{plain(value * unit)} {name}"
+    return f"{plain(value)} h"

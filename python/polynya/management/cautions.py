@@ -1,0 +1,162 @@
+"""What prevents a measurement of ice management from being relied on, in sentences: contacts of the protected body with
+a ship, ice that did not arrive, a broken mooring, a ship beyond the upstream gate, too few fields of ice."""
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Optional
+
+LEAST_FIELDS = 5  #: intervals over fewer fields of ice are not to be trusted
+MOST_LISTED = 4  #: largest number of conditions that a sentence lists
+PREFIX = "management_"
+ARRIVALS = ("floes_at_body", "ice_load_peak_N")  # if these are 0, no ice arrived at the body
+
+
+@dataclasses.dataclass(frozen=True)
+class Hits:
+    """Contacts of the protected body with other ships, of one pattern in one condition."""
+
+    hit: int  #: number of fields with a contact
+    fields: int
+    load: float  #: largest load of all contacts, mean over a row of forces.csv [N]
+    closest: float  #: smallest distance between the waterlines in all fields [m]
+
+
+def values_of(condition, measure, pattern):
+    return condition.values.get(PREFIX + measure, {}).get(pattern, {})
+
+
+def hits_of(condition, pattern) -> Optional[Hits]:
+    """Contacts of a pattern; None if they were not measured."""
+    hits = values_of(condition, "ship_hits", pattern).values()
+    if not hits:
+        return None
+    loads = values_of(condition, "ship_load_peak_N", pattern).values()
+    distances = values_of(condition, "ship_distance_m", pattern).values()
+    return Hits(sum(hit > 0 for hit in hits), len(hits), max(loads, default=0.0), min(distances, default=math.inf))
+
+
+def has_arrived(condition):
+    """Returns False if it is known that no ice arrived at the body in any field of any pattern."""
+    known = [values for name in ARRIVALS for values in condition.values.get(PREFIX + name, {}).values()]
+    return not known or any(value > 0 for values in known for value in values.values())
+
+
+def without_ice(condition, pattern):
+    """Number of fields of a pattern in which no ice passed the upstream gate and none arrived at the body, and the
+    number of all of its fields."""
+    of = [values_of(condition, name, pattern) for name in ("floes_upstream", *ARRIVALS)]
+    fields = [field for field in of[0] if all(field in values for values in of)]
+    return sum(all(values[field] == 0 for values in of) for field in fields), len(fields)
+
+
+def force(value):
+    factor, unit = next(((f, u) for f, u in ((1e6, "MN"), (1e3, "kN")) if value >= f), (1, "N"))
+    return f"{value / factor:.3g} {unit}"
+
+
+def counted(condition, number, fields):
+    """"1 of 6 fields", with the condition if the study has several."""
+    return f"{number} of {fields} fields" + (f" ({condition.name})" if condition.name else "")
+
+
+def listed(parts):
+    more = f" and {len(parts) - MOST_LISTED} more conditions" if len(parts) > MOST_LISTED else ""
+    return ", ".join(parts[:MOST_LISTED]) + more
+
+
+def contacts(found):
+    """A sentence for each pattern with contacts, the one with the largest load first."""
+    lines = []
+    for pattern in found.patterns:
+        pairs = [(condition, hits_of(condition, pattern)) for condition in found.conditions]
+        pairs = [(condition, hits) for condition, hits in pairs if hits and hits.hit]
+        if pairs:
+            most = max(hits.load for _, hits in pairs)
+            where = listed([counted(condition, hits.hit, hits.fields) for condition, hits in pairs])
+            lines.append((-most, f"{pattern}: a ship hit {found.body} in {where}, with up to {force(most)} (mean over "
+                                 "a row of forces.csv). The loads of this pattern are not a benefit: choose a larger "
+                                 "distance or safety radius, or less speed."))
+    return [line for _, line in sorted(lines)]
+
+
+def not_measured(found):
+    """A sentence for results of an earlier version, which did not measure contacts of ships."""
+    known = any(hits_of(condition, pattern) for condition in found.conditions for pattern in found.patterns)
+    has_ships = any(value for condition in found.conditions for pattern in found.patterns
+                    for value in values_of(condition, "icebreakers", pattern).values())
+    if known or not has_ships:
+        return []
+    return [f"it was not measured whether an icebreaker hit {found.body}, because an earlier version ran the cases. "
+            "Plan the study in a new folder and run it again."]
+
+
+def no_ice(found):
+    """Sentences on conditions and patterns for which no ice was measured."""
+    empty = [condition for condition in found.conditions if not has_arrived(condition)]
+    lines = []
+    if empty:
+        names = listed([condition.name for condition in empty if condition.name])
+        lines.append(f"{names + ': ' if names else ''}no ice arrived at {found.body} in any pattern, so nothing was "
+                     "measured and nothing is ranked. Run longer (time.until_s), count from an earlier time (from_s), "
+                     "or check that the ice drifts towards the body.")
+    for pattern in found.patterns:
+        counts = [(condition, *without_ice(condition, pattern)) for condition in found.conditions
+                  if condition not in empty]
+        counts = [counted(*of) for of in counts if of[1]]
+        if counts:
+            lines.append(f"{pattern}: no ice passed either gate in {listed(counts)}. Loads of 0 of these fields are "
+                         "not measurements.")
+    return lines
+
+
+def moorings(found):
+    lines = []
+    for pattern in found.patterns:
+        counts = [(condition, values_of(condition, "moorings_broken", pattern)) for condition in found.conditions]
+        counts = [counted(condition, sum(value > 0 for value in values.values()), len(values))
+                  for condition, values in counts if any(value > 0 for value in values.values())]
+        if counts:
+            lines.append(f"{pattern}: the mooring of {found.body} broke in {listed(counts)}. Loads after that are "
+                         "those of a ship adrift.")
+    return lines
+
+
+def beyond_gate(found):
+    names = [pattern for pattern in found.patterns for condition in found.conditions
+             if any(value > 0 for value in values_of(condition, "ships_beyond_gate_s", pattern).values())]
+    if not names:
+        return []
+    return [f"{'; '.join(dict.fromkeys(names))}: a ship sailed beyond the upstream gate, so the ice that is counted "
+            "there is partly broken already. Give a larger upstream_m to compare it."]
+
+
+def few_fields(found):
+    counts = [len(values) for condition in found.conditions for of in condition.values.values()
+              for values in of.values()]
+    if not counts or min(counts) >= LEAST_FIELDS:
+        return []
+    fields = f"{min(counts)} field{'s' if min(counts) > 1 else ''} of ice (seeds)"
+    return [f"{fields}: intervals over fewer than {LEAST_FIELDS} are not to be trusted. Give the study six repetitions "
+            "or more; finished cases are kept."]
+
+
+def of_study(found):
+    """All sentences, the most serious first."""
+    return [*contacts(found), *no_ice(found), *moorings(found), *not_measured(found), *few_fields(found),
+            *beyond_gate(found)]
+
+
+def of_measures(measures, body):
+    """Sentences on a single run, from its measures."""
+    of = lambda name: measures.get(PREFIX + name) or 0
+    if of("ship_hits"):
+        yield (f"a ship hit {body} {of('ship_hits')} time{'s' if of('ship_hits') > 1 else ''}, with up to "
+               f"{force(of('ship_load_peak_N'))} (mean over a row of forces.csv). The loads of this run are not a "
+               "benefit.")
+    if not any(of(name) for name in ARRIVALS):
+        yield f"no ice arrived at {body}, so nothing was measured."
+    if of("moorings_broken"):
+        yield f"the mooring of {body} broke. Loads after that are those of a ship adrift."
+    if of("ships_beyond_gate_s"):
+        yield "a ship sailed beyond the upstream gate, so the ice that is counted there is partly broken already."

@@ -1,0 +1,91 @@
+"""The cover of ice at gates across the drift: how much of a gate's length lies under ice."""
+from __future__ import annotations
+
+import numpy
+
+from ..results.motions import placed
+from ..results.run import body_poses
+from .gates import axes_over_time
+
+
+class Outlines:
+    """Rings of floes in their body frames, and their reach from the frame's origin [m]."""
+
+    def __init__(self, run):
+        self._run = run
+        self._reach = numpy.full(len(run.births["floe_id"]), numpy.nan)
+
+    def reach_of(self, ids):
+        unknown = ids[numpy.isnan(self._reach[ids])]
+        for floe, rings in self._run.shapes.of(unknown).items():
+            self._reach[floe] = numpy.hypot(*rings[0].T).max()
+        return self._reach[ids]
+
+    def of(self, ids):
+        return self._run.shapes.of(ids)
+
+
+def crossings(rings, line):
+    """Sorted positions y at which rings cross the line x = `line`. The ice lies between the first and the second one,
+    between the third and the fourth one, and so on."""
+    found = []
+    for ring in rings:
+        (x, y), following = ring.T, numpy.roll(ring, -1, axis=0)
+        crosses = (x > line) != (following[:, 0] > line)
+        share = (line - x[crosses]) / (following[crosses, 0] - x[crosses])
+        found.append(y[crosses] + share * (following[crosses, 1] - y[crosses]))
+    return numpy.sort(numpy.concatenate(found))
+
+
+def covered(stretches, half):
+    """Length of the union of stretches (low, high) within ± half [m]."""
+    total, reached = 0.0, -half
+    for low, high in sorted(stretches):
+        low, high = max(low, reached), min(high, half)
+        if high > low:
+            total += high - low
+            reached = high
+    return total
+
+
+def covers_at(run, outlines, time, axis, origin, gates):
+    """Fractions of the length of the upstream gate and of the gate at the body that lie under floating ice."""
+    births = run.births
+    floats = (births["born_s"] <= time) & (time < births["died_s"]) & (time < births["went_under_s"])
+    ids = numpy.flatnonzero(floats)
+    poses = body_poses(run.motions.floes_at(ids, time), run.centroids[ids])
+    ids, poses = ids[~numpy.isnan(poses[:, 0])], poses[~numpy.isnan(poses[:, 0])]
+    along, reach = (poses[:, :2] - origin) @ axis, outlines.reach_of(ids)
+    across = numpy.array([-axis[1], axis[0]])
+    found = []
+    for line in (gates.upstream, gates.near):
+        near = numpy.flatnonzero(numpy.abs(along - line) <= reach)
+        shapes, stretches = outlines.of(ids[near]), []
+        for k in near.tolist():
+            rings = [placed(ring, *poses[k]) - origin for ring in shapes[int(ids[k])]]
+            ends = crossings([numpy.column_stack((ring @ axis, ring @ across)) for ring in rings], line)
+            stretches += zip(ends[::2].tolist(), ends[1::2].tolist())
+        found.append(covered(stretches, 0.5 * gates.width) / gates.width)
+    return found
+
+
+def covers(run, gates):
+    """Cover at the upstream gate and at the gate at the body: the mean fraction of the gate's length that lies under
+    ice, from the first frame with ice on the gate to the last one, with each frame weighted by the distance that the
+    ice drifts until the next. It lies between 0 and 1, because ice is counted once where floes overlap. None if no ice
+    lay on the gate, or if the water rests."""
+    upstream, ways = axes_over_time(run)
+    number, outlines = run.ship_names.index(gates.body), Outlines(run)
+    rows = numpy.zeros((len(run.times), 2))
+    for k, (time, axis) in enumerate(zip(run.times, upstream)):
+        if time > gates.start:
+            moved = run.motions.ships_at(time)
+            origin = (moved if len(moved) else run.first_motions)[number, :2]
+            rows[k] = covers_at(run, outlines, time, axis, origin, gates)
+    found = []
+    for shares in rows.T:
+        with_ice = numpy.flatnonzero(shares > 0)
+        stretch = slice(with_ice[0], with_ice[-1] + 1) if len(with_ice) else slice(0)
+        weights = ways[stretch]
+        found.append(float((shares[stretch] * weights).sum() / weights.sum()) if weights.sum() > 0 else None)
+    return found
