@@ -132,6 +132,7 @@ struct StepData {
   std::vector<dynamics::InseparableOverlap> inseparable_overlaps;
   std::vector<dynamics::PartedContact> parted;
   std::vector<HullSlope> slopes;  ///< slopes of the hulls at their contacts, which are the first contacts of the list
+  /// Fractures to be applied: bends and splits by the paper's rule. enter_splits() inserts `splits` before them.
   std::vector<PendingFracture> fractures;
   std::vector<PendingFracture> splits;  ///< splits by the true forces of the step
   std::vector<PendingSubmersion> submersions;
@@ -140,7 +141,8 @@ struct StepData {
   std::vector<ShipMotion> start;                ///< motion of each ship before the step's impulses
   std::vector<geometry::Pose> water_from_hull;  ///< pose of each hull at the start of the step
   dynamics::ContactSolver solver;               ///< solver, kept because it reuses its memory
-  std::unordered_map<FloeId, BeamShape> beam_shapes;  ///< shapes of slender floes that may break as beams
+  /// Shapes of slender floes that may break as beams. They are kept over steps, because they cost time to compute.
+  std::unordered_map<FloeId, BeamShape> beam_shapes;
   /// State of each contact before it was solved; used for splits by true forces.
   std::vector<SolverStart> solver_start;
 };
