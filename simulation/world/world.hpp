@@ -80,7 +80,8 @@ struct PendingFracture {
   geometry::Vector cusp_axis_in_body{1, 0};
   DrivenEdge driven_edge;   ///< motion of the cusp's edge; set for bends by the law of crushing ice
   bool is_in_range = true;  ///< true if the load is in the range of the bending model's data
-  /// True if the fracture is assigned to a piece of its floe if the floe breaks in the same step before it.
+  /// True if the fracture is assigned to a piece of its floe if another bend breaks the floe in the same step before
+  /// it.
   bool passes_to_pieces = false;
   geometry::CrackPath crack_in_body;  ///< crack of a split, in the body frame of the floe
   fracture::FailureCriteria criteria;
