@@ -373,8 +373,8 @@ struct GivingWay {
 };
 
 /// Returns the rules of a field. With a law, cells are cut along boundaries, and rounding may place their edges across
-/// them: floes shrink a little, and the others grow. Without a law, cells ignore boundaries, and floes across one are
-/// left out.
+/// them: floes shrink a little, in one round to no less than 0.97¹¹ = 0.72 of their length, and the others grow.
+/// Without a law, cells ignore boundaries, and floes across one are left out.
 GivingWay giving_way_of(const FloeField& field) {
   return field.law ? GivingWay{12, 4, 1e-9} : GivingWay{};
 }

@@ -59,6 +59,8 @@ FreeArea::FreeArea(const Ring& region, const std::vector<Polygon>& kept_clear, d
     hull_ = {box.low, {box.high.x, box.low.y}, box.high, {box.low.x, box.high.y}};
     add_edges(region, true, 0, plane);
   }
+  // Cleared areas that lie farther from the hull than their edges are moved are left out. A distance in the world is at
+  // most √stretch times as long in the plane, so the reach is ample.
   for (const Polygon& polygon : kept_clear) {
     const Ring ring = plane.from_world(polygon.outer);
     const Box reach = grown(bounding_box(ring), 2 * gap * plane.stretch);
@@ -97,6 +99,7 @@ bool FreeArea::clip(Ring& ring) const {
     near.push_back(i);
     return true;
   });
+  // Depth that edges must reach, so that a ring that was clipped along an edge is not clipped along it again [m].
   const double depth = 1e-7 * distance(box.low, box.high);
   bool was_met = false;
   while (!ring.empty()) {
@@ -350,7 +353,7 @@ class Relaxation {
     bool is_whole = false;
     for (int pass = 0; pass < kSettles + (is_whole ? 0 : kMostExtras); ++pass) {
       measure();
-      balance(std::min(1.0, 0.2 * (pass + 2)));
+      balance(std::min(1.0, 0.2 * (pass + 2)));  // 0.4 of Newton's step at first, all of it from the fourth pass
       is_whole = !move_lost_sites();
     }
     std::vector<FieldCell> cells(sites_.size());

@@ -148,7 +148,7 @@ CrushedGrowth crushed_growth(double thickness, const HullSlope& hull, const Cont
   const double after = c.record->paid_area, before = after - c.paid_by_work - c.paid_by_giving_way;
   if (!(after > before)) return {hull.crushed_share, thickness};
   const bool edge_stands = hull.crushed_share == 1 && hull.penetration_share == 1;
-  if (edge_stands && hull.tangent == 0) return {1, thickness};  // most contacts: the power law is not needed
+  if (edge_stands && hull.tangent == 0) return {1, thickness};  // most contacts: no crushed depth is needed
   const double deepest = std::max(c.depth, c.paid_depth);
   const auto crushed_area_at = [&](double area) {
     const double further = dynamics::depth_at(c, area) - deepest;

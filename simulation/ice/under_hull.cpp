@@ -249,8 +249,8 @@ bool has_room(const Population& population, const geometry::Boundary& piece, con
   return has_room;
 }
 
-/// Returns true if the place of a piece overlaps another piece that has not surfaced yet, and so needs its own place
-/// above itself. `centre` is the centre of mass of the piece at the place.
+/// Returns true if a piece at a place would lie over another piece that has not surfaced yet, and would take the water
+/// in which that piece surfaces. `centre` is the centre of mass of the piece at the place.
 bool is_over_another(const Population& population, const SubmergedPiece& submerged, const geometry::Boundary& piece,
                      const Pose& water_from_piece, Point centre) {
   const dynamics::Bodies& bodies = population.bodies;

@@ -32,8 +32,9 @@ struct ShipInStep {
   Planar of_ground;   ///< velocity of the ground in the water frame [m/s, rad/s]
 };
 
-/// Returns the angle by which a ship turned in the previous step [rad]. A moored ship turns by the mean of two yaw
-/// rates (sail_ship), so its angle is stored.
+/// Returns the angle by which a ship turned in the previous step [rad]. It is computed from the yaw rate at its end and
+/// the length of the present step, which is equal unless the number of parts of a tick has changed. A moored ship turns
+/// by the mean of two yaw rates (sail_ship), so its angle is stored.
 double last_turn(const Setup& setup, const Step& step, const Population& population, const ShipMotion& start,
                  BodyIndex i) {
   return setup.scene.ships[i].mooring ? population.helms[i].last_turn : start.angular_velocity * step.length;
@@ -251,7 +252,9 @@ dynamics::MainDimensions dimensions_of(const Ship& ship, double water_density) {
 
 namespace {
 
-/// Returns the hull of a ship in the water. `engine` is null for a ship without an engine.
+/// Returns the hull of a ship in the water. `engine` is null for a ship without an engine. With an engine, the
+/// resistance follows from its bollard pull and open-water speed; without one, from the scene's resistance coefficient
+/// if water acts on the hull.
 dynamics::HullInWater hull_in_water(const Ship& ship, const dynamics::Engine* engine, double density) {
   const geometry::Box box = bounding_box(ship.hull.waterline);
   const dynamics::MainDimensions dimensions = dimensions_of(ship, density);

@@ -58,10 +58,12 @@ struct IceEvent {
   FloeId floe = kNoFloe;              ///< floe that broke, went under or surfaced; parent of `children`
   FloeId by_floe = kNoFloe;           ///< floe that caused the event; kNoFloe if a hull did
   std::vector<FloeId> children = {};  ///< floes that the event created from `floe`
-  /// Unit normal of the contact from the hull, or the other floe, into the ice; zero if no contact pressed.
+  /// Unit normal of the contact from the hull, or the other floe, into the ice. It is zero if no contact pressed, and
+  /// for ground overlaps other than carved channels.
   geometry::Vector normal_in_world = {};
   /// Penetration depth of the contact [m]. For a bend, or a split by SplittingModel::kMichel, it is ξ, the part of the
-  /// overlap's depth that crushed. For other events it is the depth of the overlap, or 0 if no contact is known.
+  /// overlap's depth that crushed. For other events it is the depth of the overlap, or 0 where `normal_in_world` is
+  /// zero.
   double penetration = 0;
   double submerged_area = 0;   ///< area of ice that went under the ship for good [m²]
   double brash_area = 0;       ///< area of ice that became brash: small pieces, slivers, ground overlaps and rims [m²]

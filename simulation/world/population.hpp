@@ -108,6 +108,7 @@ struct Population {
   std::vector<AcceleratingCusp> accelerating_cusps;
   std::vector<PressedDeck> decks;  ///< turning cusps, in the order in which they broke off
 
+  /// Returns the number of all floes so far, retired ones included.
   FloeId floe_count() const { return static_cast<FloeId>(floes.size()); }
   BodyKind kind(BodyIndex body) const { return bodies.kind[body]; }
   bool is_hull(BodyIndex body) const { return body < hull_count; }

@@ -242,9 +242,12 @@ struct Structure : PlacedHull {
 
 /// Load with which a wall presses on the ice along its normal. It represents a wide ice pack behind the wall.
 struct WallPressure {
-  double line_load = 0;        ///< load q per length of a wall that stands still over ground [N/m]
+  /// Load q per length of a wall that stands still over ground [N/m]. It falls linearly with the wall's speed, to 0 at
+  /// closing_speed.
+  double line_load = 0;
   double closing_speed = 0.1;  ///< speed over ground that the wall reaches if no ice resists [m/s]
-  /// Mass that moves with the wall, per length [kg/m]. Larger values hit the ice harder when the wall reaches it.
+  /// Mass that moves with the wall, per length [kg/m]. Larger values hit the ice harder when the wall reaches it;
+  /// smaller ones may need shorter steps (longest_step_by_walls).
   double mass_per_length = 4.5e5;
   friend bool operator==(const WallPressure&, const WallPressure&) = default;
 };

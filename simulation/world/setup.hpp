@@ -35,6 +35,7 @@ struct IceLimits {
 
 /// The settings of a run, and all data that follow from them alone. It is constant during the run.
 struct Setup {
+  /// Derives the data from the scene. Only tests and benchmarks switch shortcuts off.
   explicit Setup(Scene scene, Shortcuts shortcuts = {});
 
   Scene scene;

@@ -150,7 +150,8 @@ void record_hull_contacts(const Setup& setup, const Step& step, const Population
 /// Adds the step's loads to those of the recording interval.
 void sum_loads(const Step& step, const StepData& data, Accounts& accounts);
 
-/// Puts floes to sleep whose fastest point is slower than kRestSpeed and that touch nothing.
+/// Puts floes to sleep that touch nothing, whose fastest point is slower than kRestSpeed, and that neither wind nor a
+/// sheared current would move. Fast ice that moves stays awake.
 void put_to_rest(const Setup& setup, const StepData& data, Population& population, AuditSums& audit);
 
 /// Adds a sample for each hull and each loaded panel to the journal, and starts new sums. Impulses that are not booked

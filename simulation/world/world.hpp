@@ -80,7 +80,8 @@ struct PendingFracture {
   geometry::Vector cusp_axis_in_body{1, 0};
   DrivenEdge driven_edge;   ///< motion of the cusp's edge; set for bends by the law of crushing ice
   bool is_in_range = true;  ///< true if the load is in the range of the bending model's data
-  /// True if the fracture is assigned to a piece of its floe if the floe breaks in the same step before it.
+  /// True if the fracture is assigned to a piece of its floe if another bend breaks the floe in the same step before
+  /// it.
   bool passes_to_pieces = false;
   geometry::CrackPath crack_in_body;  ///< crack of a split, in the body frame of the floe
   fracture::FailureCriteria criteria;
@@ -132,6 +133,7 @@ struct StepData {
   std::vector<dynamics::InseparableOverlap> inseparable_overlaps;
   std::vector<dynamics::PartedContact> parted;
   std::vector<HullSlope> slopes;  ///< slopes of the hulls at their contacts, which are the first contacts of the list
+  /// Fractures to be applied: bends and splits by the paper's rule. enter_splits() inserts `splits` before them.
   std::vector<PendingFracture> fractures;
   std::vector<PendingFracture> splits;  ///< splits by the true forces of the step
   std::vector<PendingSubmersion> submersions;
@@ -140,7 +142,8 @@ struct StepData {
   std::vector<ShipMotion> start;                ///< motion of each ship before the step's impulses
   std::vector<geometry::Pose> water_from_hull;  ///< pose of each hull at the start of the step
   dynamics::ContactSolver solver;               ///< solver, kept because it reuses its memory
-  std::unordered_map<FloeId, BeamShape> beam_shapes;  ///< shapes of slender floes that may break as beams
+  /// Shapes of slender floes that may break as beams. They are kept over steps, because they cost time to compute.
+  std::unordered_map<FloeId, BeamShape> beam_shapes;
   /// State of each contact before it was solved; used for splits by true forces.
   std::vector<SolverStart> solver_start;
 };
