@@ -53,8 +53,8 @@ class HashGrid {
     insert(body, to);
   }
 
-  /// Calls function(other) for each body in the cells of the box, once for each common cell, and for bodies farther away
-  /// where looking up the cells would cost more than going through all of a level. The caller compares the boxes.
+  /// Calls function(other) for each body in the cells of the box, once for each common cell. It also passes bodies
+  /// farther away, if looking up the cells costs more than going through all of a level. The caller compares the boxes.
   template <typename Function>
   void for_each_near(const geometry::Box& box, Function function) const {
     for (const BodyIndex other : wide_) function(other);
