@@ -44,15 +44,17 @@ struct CrushedIce {
 /// Data of a contact that are kept from step to step.
 struct PersistentContact {
   geometry::Point last_point_in_b;   ///< middle of the contact at the last step, in b's frame [m]
-  geometry::Point first_touch_in_b;  ///< point of b that was touched first [m]
-  double age = 0;                    ///< time since first contact [s]
-  double approach = 0;               ///< ∫ max(0, v_n) dt, the distance of approach [m]
+  geometry::Point first_touch_in_b;  ///< point of b that was touched first, the centre of a cusp [m]
+  double age = 0;                    ///< time since first contact; 0: the record is new [s]
+  double approach = 0;               ///< ∫ max(0, v_n) dt; over `age` the mean speed that bending uses [m]
   double crushed_depth = 0;          ///< depth of overlap that crushing made; separate() does not reduce it [m]
   double last_impulse[2] = {0, 0};   ///< normal impulse of compression at each end, in the last substep solved [N s]
   double last_slip_impulse = 0;      ///< impulse along the contact line in that substep [N s]
   double paid_area = 0;              ///< part of the overlap's area whose ice is gone (paid_overlap.hpp) [m²]
-  double area = 0;                   ///< expected area of the overlap at the end of the last step [m²]
-  double reach = 0;                  ///< extent of the contact from last_point_in_b, at the last step [m]
+  /// Expected area of the overlap at the end of the last step [m²]. What exceeds the paid area is reported as not paid;
+  /// 0 in the step in which the overlap is found.
+  double area = 0;
+  double reach = 0;             ///< extent of the contact from last_point_in_b, by which a pierced one is matched [m]
   std::int64_t load_track = 0;       ///< number of the track that follows its force over the steps; 0: none
   RestitutionMemory restitution;
   /// Law of impulses: energy that compression took and restitution has not given back [J].
@@ -71,8 +73,8 @@ struct Contact {
   BodyIndex a = 0;
   BodyIndex b = 0;
   geometry::Point ends[2];   ///< the ends of the contact line [m]
-  geometry::Point tip_of_b;  ///< point of b farthest inside a [m]
-  geometry::Point tip_of_a;  ///< corner of a farthest inside b; the middle of the line if there is none [m]
+  geometry::Point tip_of_b;  ///< point of b farthest inside a, where its wedge angle is measured and it may crack [m]
+  geometry::Point tip_of_a;  ///< corner of a farthest inside b, likewise; the middle of the line if there is none [m]
   geometry::Vector normal;   ///< unit vector
   double width = 0;          ///< length of the contact line [m]
   double depth = 0;          ///< extent of the overlap along the normal; mean thickness of a thin crescent [m]
@@ -84,7 +86,7 @@ struct Contact {
   double width_ahead = 0;
   double approach_speed = 0;            ///< v_n at the middle, positive when approaching [m/s]
   double slip_speed = 0;                ///< speed of b relative to a, along perpendicular(normal) [m/s]
-  std::uint32_t tip_edge_of_b = 0;      ///< edge of b that starts at the tip or contains it
+  std::uint32_t tip_edge_of_b = 0;      ///< edge of b that starts at tip_of_b or contains it
   std::uint32_t place = 0;              ///< number among the contacts of its two bodies
   bool is_new = false;                  ///< the overlap was found in this step for the first time
   PersistentContact* record = nullptr;  ///< record in its pair; valid during the step

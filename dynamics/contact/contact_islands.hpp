@@ -14,8 +14,8 @@ struct ContactRange {
 };
 
 /// Contacts [first, first + count) of the order: contacts of bodies that touch each other, directly or through others.
-/// A large island has two halves that share no moving body, and then the contacts between them. In other islands the
-/// first half contains all contacts.
+/// An island of 192 contacts or more has two halves that share no moving body, and then the contacts between them. In
+/// other islands the first half contains all contacts.
 struct Island {
   std::uint32_t first = 0;
   std::uint32_t count = 0;

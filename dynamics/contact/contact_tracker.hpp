@@ -11,7 +11,7 @@ namespace polynya::dynamics {
 
 /// Updates the records of a pair's contacts. A record passes to the nearest contact that may be the same one; a record
 /// without a contact is dropped. The paid area of overlaps (paid_overlap.hpp) never grows here: if overlaps join, their
-/// paid areas are added, and if one becomes several, each takes its part.
+/// paid areas are added, and if one becomes several, each takes a part in proportion to its area.
 class ContactTracker {
  public:
   /// Tracks the contacts of the pair a, b. Contacts that end with ice that they crushed are added to `parted`.

@@ -216,6 +216,7 @@ constexpr int substeps_of(const CrushLaw& law) {
   return law.substeps;
 }
 CrushLaw::State state_of(const CrushLaw& law, const Contact& contact);
+/// Sets the laws of both ends for a substep, from the force at the present overlap and the speeds before.
 void begin_substep(const CrushLaw& law, const ConstraintSpeeds& before, bool is_first, CrushLaw::State& state,
                    ContactConstraint& constraint);
 /// Returns the λ of one end from which the sweeps of a substep start [N s].
@@ -238,6 +239,7 @@ double solve_block(const CrushLaw& law, CrushLaw::State& state, ContactConstrain
 /// [m/s].
 double missed_speed(const CrushLaw& law, const CrushLaw::State& state, const ContactConstraint& constraint,
                     std::span<const SolverBody> solver_bodies);
+/// Moves the depth by the new speeds, pays overlap by the work of the substep, and notes whether the ice broke.
 void end_substep(const CrushLaw& law, const ConstraintSpeeds& before, const ConstraintSpeeds& after,
                  const ContactConstraint& constraint, CrushLaw::State& state);
 /// Writes the results of the step into the contact, whose impulses are known, and into its record. The constraint has

@@ -53,7 +53,8 @@ class HashGrid {
     insert(body, to);
   }
 
-  /// Calls function(other) for each body in the cells of the box, once for each common cell.
+  /// Calls function(other) for each body in the cells of the box, once for each common cell. It also passes bodies
+  /// farther away, if looking up the cells costs more than going through all of a level. The caller compares the boxes.
   template <typename Function>
   void for_each_near(const geometry::Box& box, Function function) const {
     for (const BodyIndex other : wide_) function(other);
@@ -65,8 +66,8 @@ class HashGrid {
     double cell = 0;  ///< side of the cells [m]
     std::unordered_map<std::int64_t, std::vector<BodyIndex>> cells;
   };
-  static constexpr double kFiner = 8;          ///< side of the cells of the next level over the side of these [-]
-  static constexpr double kFewCells = 64;      ///< cells of a box up to which each is looked up, even if fewer are used
+  static constexpr double kFiner = 8;          ///< side of a level's cells over that of the next, finer level [-]
+  static constexpr double kFewCells = 64;      ///< boxes of up to this many cells are looked up cell by cell
   static constexpr double kMostCells = 65536;  ///< a body that spans more cells is in none, and near all bodies
 
   /// Column and row of a point's cell.

@@ -40,10 +40,11 @@ class JamMemory {
 ///
 /// Each Newton step solves the equations of the present branches, a sparse system with 3 unknowns per body. The
 /// branches (active set) of the next step follow from λ = λ(û − K λ), solved for each contact alone, where û = u + K λ
-/// are its trial closing speeds and K is its mobility (primal-dual active sets, [Hintermueller2003]). After some steps
-/// half of the changes are postponed in each step, which ends cycles. The bound of a slipping contact follows within
-/// the step: this is the exact derivative of Coulomb's law, and it is not symmetric [Alart1991]. The method starts from
-/// the constraints' impulses and the bodies' velocities.
+/// are its trial closing speeds and K is its mobility (primal-dual active sets, [Hintermueller2003]). After four steps
+/// half of the changes are postponed in each step, which ends cycles; after 60 steps the method gives up. The bound of
+/// a slipping contact follows within the step: this is the exact derivative of Coulomb's law, and it is not symmetric
+/// [Alart1991]. After 16 steps it follows only by half. The method starts from the constraints' impulses and the
+/// bodies' velocities.
 ///
 /// Returns true if no contact would leave its branches, the friction bounds change no more, and the impulses give the
 /// speeds for which they were computed to within `slip_speed`; impulses and velocities are then entered into the

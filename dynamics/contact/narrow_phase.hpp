@@ -19,7 +19,7 @@ struct Clearance {
 
 /// The parts of two bodies that are near each other, and the records of their contacts.
 struct NearParts {
-  geometry::NearEdges edges;  ///< near edges of the near circles
+  geometry::NearEdges edges;  ///< edges of the two boundaries that are near each other
   std::vector<PersistentContact> records;
   std::vector<geometry::NearPair> circles;  ///< circles that are near each other; with ContactRule::is_circle_centres
 };
@@ -36,7 +36,7 @@ struct alignas(64) Pair {
   // The first cache line ends here.
   /// Value of travel[a] + travel[b] up to which the statement `near` is known to hold, without further computation [m].
   double near_bound = -1;
-  Clearance near;  ///< statement: only the near circles and edges can touch
+  Clearance near;  ///< statement: only the near edges (or circles) in `parts` can touch
 
   bool has_near_edges() const { return parts != nullptr && !parts->edges.pairs.empty(); }
   std::span<const PersistentContact> records() const {
@@ -61,7 +61,9 @@ struct ContactRule {
   bool is_circle_centres = false;   ///< the paper's normals instead of the boundary's
   bool is_culling = true;           ///< false: every step collides all pairs with one awake body (for tests)
   bool presses_prescribed = false;  ///< a hull presses ice even if both motions are prescribed
-  bool is_depth_bounded = false;    ///< in a notch the depth is limited to what area and width allow
+  /// With the law of crushing ice: the depth of a crescent is its mean thickness unless both motions are prescribed,
+  /// overlaps of less than 1 µm depth count as rectangles, and Contact::width_ahead is found.
+  bool is_depth_bounded = false;
   /// Number of cover pieces up to which covers are kept, at 64 bytes each; enough for about 50 000 floes of 20 m.
   /// Covers of further bodies are made again when they are needed, with the same contacts.
   double most_kept_pieces = 4'194'304;
@@ -123,8 +125,8 @@ double clearance_left(const Bodies& bodies, BodyIndex b, const geometry::Pose& p
 double collide_pair(const Bodies& bodies, Pair& pair, const geometry::Pose& pose, const ContactRule& rule, double dt,
                     PairScratch& scratch, std::vector<Contact>& contacts);
 
-/// Distance that is far larger than the rounding errors of positions and distances [m]. Smaller: bodies that touch may
-/// be taken as apart.
+/// Distance that is far larger than the rounding errors of positions and distances [m]; lower bounds of distances are
+/// reduced by it. Smaller: bodies that touch may be taken as apart. Larger: pairs that are close are tested in vain.
 inline constexpr double kRounding = 1e-9;
 
 }  // namespace polynya::dynamics

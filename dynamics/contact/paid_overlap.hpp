@@ -68,7 +68,8 @@ void settle(bool are_prescribed, Contact& contact);
 /// paid.
 void settle_collision(const Contact& contact);
 
-/// Stores the overlap that crushed in the record if it is the largest so far and nearly all of it is paid.
+/// Stores the overlap that crushed in the record, to be cut off later, if it is the largest so far and at least 90 % of
+/// it is paid. Does nothing where the floe tilts, since its ice is not gone.
 void remember_crushed(const Bodies& bodies, const Contact& contact);
 
 }  // namespace polynya::dynamics

@@ -32,14 +32,15 @@ inline double collision_impulse(double approach_speed, double restitution, doubl
 ///   2. Restitution, as Poisson's share of the compression: ε times the impulse that compressed the contact. A contact
 ///      that is not limited separates with v⁺ = −ε v⁻ in one step, as Eq. (5) states. A contact that crushes takes as
 ///      many steps as the ice needs. Restitution never exceeds twice ε times the impulse that would end the fastest
-///      approach so far of the two bodies alone, so that pressure from elsewhere does not charge it. It never gives
-///      more energy than compression took from the bodies of the island: over several steps the bodies turn, and the
-///      same impulse with other lever arms does different work.
+///      approach so far of the two bodies alone, so that pressure from elsewhere does not charge it; twice, because
+///      sliding friction makes that impulse larger. It never gives more energy than compression took from the bodies
+///      of the island: over several steps the bodies turn, and the same impulse with other lever arms does different
+///      work.
 ///   3. Compression again, of contacts that restitution pushed together.
 struct RestitutionLaw {
   double restitution = 0.1;  ///< ε of Eq. (5) [-]
   double step = 1;           ///< Δt [s]
-  static constexpr bool kHasJams = false, kRestores = true;
+  static constexpr bool kHasJams = false, kRestores = true;  ///< no Newton's method; restitution after compression
 
   struct State {
     PersistentContact* record;  ///< null: no data are kept from step to step
@@ -58,6 +59,7 @@ inline RestitutionLaw::State state_of(const RestitutionLaw& law, const Contact& 
   PersistentContact* const record = contact.record;
   return {record, contact.crushing_force * law.step, record != nullptr ? record->stored_energy : 0};
 }
+/// Sets the largest impulse of each end, and raises the limit of restitution if the bodies approach faster than so far.
 void begin_substep(const RestitutionLaw& law, const ConstraintSpeeds& before, bool is_first,
                    RestitutionLaw::State& state, ContactConstraint& constraint);
 inline double start_impulse(const RestitutionLaw& /*law*/, const RestitutionLaw::State& state,
@@ -76,8 +78,8 @@ inline double solve_block(const RestitutionLaw& /*law*/, RestitutionLaw::State& 
 /// [J].
 double energy_taken(const ConstraintSpeeds& before, const ConstraintSpeeds& after, const ContactConstraint& constraint);
 /// Gives back the impulses that a compression owes, as far as `stored` lasts, the energy that the contacts of its
-/// island store [J]; the energy given back is subtracted from it. Returns true if any impulse was given; compression
-/// then follows again.
+/// island store [J]; the energy given back is subtracted from it. If `is_converged` is false, the next step starts
+/// from half of the predicted impulses. Returns true if any impulse was given; compression then follows again.
 bool restore(const RestitutionLaw& law, bool is_converged, double& stored, RestitutionLaw::State& state,
              ContactConstraint& constraint, std::span<SolverBody> solver_bodies);
 inline void end_substep(const RestitutionLaw& /*law*/, const ConstraintSpeeds& /*before*/,
@@ -93,7 +95,7 @@ inline void write_back(const RestitutionLaw& /*law*/, const RestitutionLaw::Stat
 /// Settings of separate().
 struct SeparationSettings {
   double time = 1.0;   ///< decay time of overlap that crushing did not make; longer: bodies move apart more slowly [s]
-  double slop = 1e-4;  ///< depth up to which overlap is left [m]
+  double slop = 1e-4;  ///< depth up to which overlap is left; larger: more of it stays [m]
 };
 
 /// Separates overlapping bodies without giving them speed (split impulse). The overlap beyond what crushing made decays

@@ -34,7 +34,8 @@ struct EdgeLoad {
   double distance = 0;  ///< x̄ / h: distance of the load from the point of first touch
   double thrust = 0;    ///< η = H / V: horizontal force into the ice / downward force [-]
   double lever = 0;     ///< e / h: height of the thrust above the middle plane of the ice
-  double facet = 0;     ///< distance from the point of first touch to the far end of the crushed facet
+  /// Distance from the point of first touch to the far end of the crushed facet; a cracked edge breaks beyond it.
+  double facet = 0;
 };
 
 /// The force at which an edge breaks, and the section at which it does.
@@ -59,16 +60,18 @@ double whole_edge_factor(double opening);
 ///
 /// If the edge has no radial crack, the stress in the top fibre of a section of width w is
 ///   σ h² / V = {6 [λ m_V(r/λ) − (x̄ + η e) m_M(r/λ)] − η} h / (f w),
-/// with λ, x̄ and e in units of h and f = whole_edge_factor(). The terms are: bending under V; the lever of the thrust,
-/// which bends the edge up; and compression by the thrust. The edge breaks off where the stress is largest. That is the
-/// narrowest section that is far enough from the load.
+/// with λ, x̄ and e in units of h, w = θ r for the opening θ [rad] of the section on the circle of radius r,
+/// and f = whole_edge_factor(θ). The terms are: bending under V; the lever of the thrust, which bends the edge up; and
+/// compression by the thrust. The edge breaks off where the stress is largest. That is the narrowest section that is
+/// far enough from the load.
 ///
 /// If a radial crack has opened in the bottom of the ice, the stress is largest at the two ends (rims) of a section:
 ///   σ h² / V = {6 [A (λ m_V − x̄ m_M) − 0.31 η e m_M] − 0.93 η} h / w,
 ///   A = 0.87 + 0.18 (l/(15 h) − 1) − 0.04 (θ − 2) + 0.19 |Δφ|,
-/// where θ [rad] is the opening of the section and Δφ [rad] the change of direction of its middle up to 1.56 r. This
-/// stress changes little with r. Therefore R is the mean place of the break for ice whose strength scatters by 0.2 from
-/// section to section. Such an edge carries at most 0.585 (1 + ⟨θ − π⟩), with the widest opening θ within 0.5 l and the
+/// where Δφ [rad] is the change of direction of the section's middle up to 1.56 r. In A, l/h, θ and Δφ are limited to
+/// the range of the finite elements. Sections within h of the crushed facet do not count. This stress changes little
+/// with r. Therefore R is the mean place of the break for ice whose strength scatters by 0.2 from section to section.
+/// Such an edge carries at most V / (σ_f h²) = 0.585 (1 + ⟨θ − π⟩), with the widest opening θ within 0.5 l and the
 /// positive part ⟨·⟩, because the next radial cracks open at that force. An edge counts as cracked if that opening is
 /// 105° or more, and as whole up to 90°; between, the stresses are interpolated.
 ///

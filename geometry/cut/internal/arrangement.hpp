@@ -42,7 +42,7 @@ enum class Seams {
 
 struct Overlay {
   std::vector<Region> regions;
-  bool tool_meets_interior = false;  ///< a tool segment runs where the shape winds on both sides
+  bool tool_meets_interior = false;  ///< a tool segment runs through the shape's interior; false: the tool misses it
   double dangling_length = 0;        ///< length of these segments with one face on both sides: dangles and bridges [m]
 };
 

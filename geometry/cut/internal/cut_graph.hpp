@@ -93,11 +93,11 @@ struct CutGraph {
   std::vector<HalfEdge> half_edges;  ///< all shape chains, then each chord forward and backward
   std::vector<Walk> walks;
   std::vector<HalfEdge> bridges;  ///< stretches of the tool from ring to ring that separate nothing
-  int rings_met = 0;              ///< number of the shape's rings on which chords and bridges end
+  int rings_met = 0;              ///< rings on which chords and bridges end; if several, rings must not touch
   std::vector<char> ring_is_cut;  ///< for each ring of the shape: it has active nodes
   bool is_consistent = true;      ///< false only if the shape or the tool is not valid
-  int first_node = -1;            ///< first node along the tool
-  int last_node = -1;
+  int first_node = -1;            ///< first node along the tool; an open tool may dangle before it
+  int last_node = -1;             ///< the last one; an open tool may dangle after it
   bool starts_inside = false;  ///< an open tool reaches its first node through the shape's interior
   bool ends_inside = false;    ///< it leaves its last node into the interior
 };

@@ -409,7 +409,7 @@ CutResult take_as_planned(std::vector<PiecePlan> plans, double area_before, cons
   return result;
 }
 
-// Returns the pieces rounded from their exact shapes, if it has.
+// Returns the pieces rounded from their exact shapes, for cuts in which rounding has broken the planned ones.
 CutOutcome round_exactly(const LocalCut& cut, const std::vector<PiecePlan>& plans, const Polygon& shape) {
   std::vector<exact::ExactPiece> pieces;
   pieces.reserve(plans.size());

@@ -57,7 +57,7 @@ struct ExactPiece {
 /// (kInternal) only if the sum is not exact or a piece is invalid before rounding.
 CutOutcome rounded_pieces(const Rational& area_before, const std::vector<ExactPiece>& pieces);
 
-/// Sorts pieces into the order that results have: by part, then by lowest vertex.
+/// Sorts pieces into the order that results have: by part, then by the x and the y of their leftmost vertex.
 void sort_pieces(std::vector<Piece>& pieces);
 
 }  // namespace polynya::geometry::exact
