@@ -157,8 +157,8 @@ function showEventCard(host, run, event) {
 // The selected floe, or the floe under the pointer: its card, and its text on the map.
 
 /** Returns functions for the shown floe. showCard() updates the card when floe or time change, or when `cardIsStale`
- * reports another selection. While the run plays it leaves the card alone if one of its links has the focus, because the
- * focus would be lost. */
+ * reports another selection. While the run plays it leaves the card alone if one of its links has the focus, because
+ * the focus would be lost. */
 function makeShownFloe(player) {
   const { run, state, places, motions } = player;
   let cardShown = "";
