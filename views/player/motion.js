@@ -136,8 +136,8 @@ function readIceUnderHulls(events) {
   return { went: timesOf("submerge").length, cameUpAt: timesOf("resurface") };
 }
 
-/** Outlines ice that is under hulls or waits behind them for room, with lines of 0.5 to 1.2 px, thinner where the map is
- * small. It is drawn over the ship, which stays visible through the pale fill (0.25 of its colour). */
+/** Outlines ice that is under hulls or waits behind them for room, with lines of 0.5 to 1.2 px, thinner where the map
+ * is small. It is drawn over the ship, which stays visible through the pale fill (0.25 of its colour). */
 function drawIceUnderHulls(context, view, run, places, colours) {
   onMap(context, view, { width: Math.min(1.2, Math.max(0.5, 0.4 * view.scale)), dash: [3, 2] }, () => {
     context.fillStyle = context.strokeStyle = colours["under-hull"];

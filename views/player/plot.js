@@ -300,7 +300,7 @@ class Plot {
     return Object.fromEntries(this.scales().map((name) => [name, rangeOf(columnsOf(name))]));
   }
 
-  /** Ranges of the axes, by scale, for the visible values; those of other quantities than loads with a margin of 10 %. */
+  /** Ranges of the axes, by scale, for the visible values. Quantities other than loads get a margin of 10 %. */
   axisRanges() {
     const needed = this.widened(this.neededRanges());
     const names = Object.keys(needed);
