@@ -25,8 +25,8 @@ function makeCarrier({ drift, shear_per_s: shear, shear_direction_rad: direction
 }
 
 /** Returns true if a ship has moved by more than 1 m from the first frame to the last, relative to `carry`, which
- * carries points with the water, or leaves them in place for motion over ground. A ship that moved less has no channel
- * worth drawing; the layers "channel" and "ice at the start" are then off when the page opens. */
+ * carries points with the water, or leaves them in place for motion over ground. The layers
+ * "channel" and "ice at the start" are on when the page opens only if a ship has. */
 function hasGone(run, motions, ship, carry) {
   const { times } = run.frames;
   const last = times.length - 1;

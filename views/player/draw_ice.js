@@ -83,7 +83,7 @@ const smallReach = 5;
 
 /** Draws the floes of these ids that are visible, one class of colours after the other. `look` has their colours:
  * `bucketOf` gives the class of a floe, `fills` and `edgeOf` the fill and the edge of a class. Edges are thinner where
- * the map is small, so that small floes do not look black. */
+ * the map is small, so that edges do not cover small floes. */
 function drawFloes(context, view, run, places, ids, look) {
   const { floes } = run;
   const buckets = look.fills.map(() => []);

@@ -1,8 +1,8 @@
 // The camera of the map. y points up in the world and down on the screen.
 
 /** Makes the camera of an element, `stage`, in which `canvases` lie. (x, y) is the point of the world in the middle
- * [m], `scale` the size of a metre [px]. Zooming limits it to 0.001, at which 1000 km fit the page, and 400, at which
- * small pieces of ice fill it; `fit` may exceed these limits. `width` and `height` are those of the element [px];
+ * [m], `scale` the size of a metre [px]. Zooming limits it to 0.001, at which 1000 px show 1000 km, and 400, at
+ * which they show 2.5 m; `fit` may exceed these limits. `width` and `height` are those of the element [px];
  * `ratio` is the number of the canvas's own pixels per pixel of the page. */
 function makeMapView(stage, canvases) {
   const view = { x: 0, y: 0, scale: 1, width: 1, height: 1, ratio: 1 };
