@@ -16,8 +16,9 @@ namespace polynya::fracture {
 /// plane.
 inline constexpr double kLeastSlenderness = 4;
 
-/// Smallest width of a section that is checked, as a fraction of the floe's mean width [-]. Narrower sections are the
-/// tips of the floe. A larger fraction may miss the waist at which a floe breaks.
+/// Smallest width of a section that is checked, as a fraction of the floe's mean width [-], which is its area over the
+/// diameter of its bounding circle. Narrower sections are the tips of the floe. A larger fraction may miss the waist at
+/// which a floe breaks.
 inline constexpr double kLeastSection = 0.5;
 
 /// Returns true if a floe is at least as slender as a rectangle of that ratio, judged by its area [m²] and its polar

@@ -272,8 +272,8 @@ std::vector<ShownCause> shown_causes(const simulation::Scene& scene) {
   return shown;
 }
 
-/// Adds the rows of forces.csv in the selected time: the columns that plots show, which include those of causes, and
-/// for each cause with shares a column without its shares.
+/// Adds the rows of forces.csv in the selected time. The columns are all that plots show, including the columns of
+/// causes, and for each cause with shares a column without its shares.
 void add_forces(ColumnWriter& columns, const io::Run& run, const io::FrameSelection& selection) {
   std::vector<simulation::HullSample> rows;
   std::ranges::copy_if(run.samples, std::back_inserter(rows),
