@@ -16,8 +16,9 @@ namespace polynya::fracture {
 /// plane.
 inline constexpr double kLeastSlenderness = 4;
 
-/// Smallest width of a section that is checked, as a fraction of the floe's mean width [-]. Narrower sections are the
-/// tips of the floe.
+/// Smallest width of a section that is checked, as a fraction of the floe's mean width [-], which is its area over the
+/// diameter of its bounding circle. Narrower sections are the tips of the floe. A larger fraction may miss the waist at
+/// which a floe breaks.
 inline constexpr double kLeastSection = 0.5;
 
 /// Returns true if a floe is at least as slender as a rectangle of that ratio, judged by its area [m²] and its polar
@@ -60,8 +61,9 @@ struct BeamSection {
 struct SectionLoad {
   double tension = 0;  ///< N along the floe [N]
   double moment = 0;   ///< M in plan; positive: tension at the larger y [N m]
-  double vertical_moment =
-      0;  ///< M_v by the forces that press the floe down, for a floe that is rigid on the water [N m]
+  /// M_v by the forces that press the floe down, for a floe that is rigid on the water [N m]. The caller multiplies it
+  /// by elastic_share().
+  double vertical_moment = 0;
 };
 
 /// Returns the load of a section by Newton's law for the part of the floe before it. In plan the loads are balanced by

@@ -2,7 +2,7 @@
 
 namespace polynya::fracture {
 
-/// The outcome at one contact between a ship and a floe (docs/theory/decision.md).
+/// The outcome at one contact between a hull, of a ship or a structure, and a floe (docs/theory/decision.md).
 enum class Failure { kNone, kCrush, kBend, kSplit };
 
 /// Both sides of each criterion at one contact, so that a record can state them.

@@ -97,9 +97,10 @@ struct Push {
 inline constexpr double kFullSlip = 5e-3;
 
 /// Resolves the force of a wedge on ice into the forces of its two faces. Each face presses along its normal and drags
-/// the ice by friction: F = Σ N_i (n_i + μ t_i). Returns nullopt if one face would have to pull, or is a stern's face
-/// that moves away from the ice faster than kFullSlip; the body then presses on the other face alone. For a stem of
-/// half-angle α that moves ahead, each face pushes sideways with F (1 − μ tan α) / [2 (tan α + μ)].
+/// the ice by friction: F = Σ N_i (n_i + μ t_i). Returns nullopt, and the caller counts the force as one push, if one
+/// face would pull, if one is a stern's face that moves away from the ice faster than kFullSlip, or if both are
+/// parallel. For a stem of half-angle α that moves ahead, each face pushes sideways with F (1 − μ tan α) / [2 (tan α +
+/// μ)].
 std::optional<std::array<Push, 2>> wedge_pushes(geometry::Vector force, const std::array<Face, 2>& faces,
                                                 double friction);
 

@@ -19,17 +19,20 @@ double edge_mass(const Ice& ice, const Water& water, const TurningCusp& cusp) {
 
 namespace {
 
-constexpr double kDischarge = 0.6;  ///< C_d of openings with sharp edges [-] (recall)
-constexpr int kHalvings = 14;       ///< bisections to find the pool's surface, within 1e-4 of its depth
-constexpr int kStepsOfATurn = 40;   ///< steps in which the hull moves by the depth of the cusp; also most in a call
-constexpr double kLeastLever =
-    0.1;  ///< smallest lever over the depth of the cusp, where it jams between sheet and hull [-]
+/// C_d of openings with sharp edges [-] (recall). A larger value fills the deck faster, so that the hull carries less.
+constexpr double kDischarge = 0.6;
+constexpr int kHalvings = 14;      ///< bisections to find the pool's surface, within 1e-4 of its depth
+constexpr int kStepsOfATurn = 40;  ///< steps in which the hull moves by the depth of the cusp; also most in a call
+/// Smallest lever over the depth of the cusp, where it jams between sheet and hull [-]. A smaller value lets a jammed
+/// cusp press on the hull with more force.
+constexpr double kLeastLever = 0.1;
 
 /// The part of an edge within a strip of the deck, as an interval of fractions of the edge.
 struct Within {
   double from = 0, to = 0;
 };
 
+/// Returns the part of an edge from the distance r0 to r1 that lies between the distances `low` and `high` [m].
 Within within(double r0, double r1, double low, double high) {
   if (r0 == r1) return r0 >= low && r0 < high ? Within{0, 1} : Within{};
   const double a = std::clamp((low - r0) / (r1 - r0), 0.0, 1.0);
@@ -37,6 +40,8 @@ Within within(double r0, double r1, double low, double high) {
   return {std::min(a, b), std::max(a, b)};
 }
 
+/// Adds an edge to the strips that it crosses. `farthest` is the x of the axis; distances r are measured from it
+/// towards the hull. The widths are the areas under the edges of the closed outline, over the depth of a strip.
 void add_edge(Deck& deck, double farthest, geometry::Point from, geometry::Point to, const DeckEdge& edge) {
   const double strip = deck.depth / Deck::kStrips;
   const double r0 = farthest - from.x;
@@ -192,7 +197,8 @@ class Turn {
     }
     return open;
   }
-  /// Returns the open area between the strip's far edge and the lower corner of the sheet [m²].
+  /// Returns the open area between the strip's edge and the sheet [m²]: the gap between both faces while the edge has
+  /// sunk by less than the thickness, later that between the edge's upper corner and the sheet's lower corner.
   double beside_sheet(int k) const {
     const double r = at(k);
     const double h = deck_.thickness;

@@ -54,7 +54,7 @@ struct DeckStrip {
   double sheet = 0;         ///< length of edge next to the sheet [m]
   double sheet_across = 0;  ///< |dy| of this edge [m]
   double water = 0;         ///< length of edge next to open water [m]
-  std::array<DeckSide, 2> sides;
+  std::array<DeckSide, 2> sides;  ///< next to older cusps, on either side of the cusp
 };
 
 /// A cusp that turns, divided into strips of equal depth; the first one lies at the axis.
@@ -73,7 +73,7 @@ struct Deck {
 double distance_to_lie_along(const Deck& deck);
 
 /// Returns the deck of a cusp from its outline, which runs counter-clockwise in a frame whose x axis is the hull's
-/// normal. `edges` has the edge after each point.
+/// normal, away from the hull, so that the axis of rotation is at the largest x. `edges` has the edge after each point.
 Deck deck_of(const Ice& ice, const Water& water, double hull_angle, std::span<const geometry::Point> outline,
              std::span<const DeckEdge> edges);
 

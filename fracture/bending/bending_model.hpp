@@ -18,7 +18,8 @@ struct BendingLoad {
   double penetration = 0;            ///< ξ, crushed so far along the plan normal [m]
   double vertical_to_crushing = 1;   ///< c_V = V / F_n (docs/theory/bending.md) [-]
   /// 2α as measured, if the edges lie beyond the largest half-angles [rad]; 0: the sum of the half-angles. A hull that
-  /// has broken its way in touches the ice at the bottom of a notch, 2α > π.
+  /// has broken its way in touches the ice at the bottom of a notch, 2α > π. Of the models, only FsiDatabaseModel uses
+  /// this member and those below.
   double opening_angle = 0;
   /// V of the contact at that penetration [N]; 0 if it is not known: V then follows from the wedge's angles, Eq. (2).
   double vertical_force = 0;
@@ -34,7 +35,9 @@ struct BendingLoad {
 struct BendingCapacity {
   double vertical_force = 0;  ///< V_b [N]
   double cusp_radius = 0;     ///< R [m]
-  bool is_in_range = true;    ///< false if a tabulated model had to limit the load to its table
+  /// False if the load is outside of the model's table, or of the range for which a published form is used. Runs count
+  /// breaks out of range and do not otherwise change them.
+  bool is_in_range = true;
   /// True if a radial crack opens before the cusp breaks. Only the tabulated model finds it, whatever its RadialCracks.
   bool radial_crack_first = false;
 };

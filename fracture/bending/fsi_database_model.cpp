@@ -46,8 +46,9 @@ BendingCapacity to_capacity(const DatabaseAnswer& answer, const ScaledLoad& load
 }
 
 /// Returns the force of a wedge that radial cracks have split into 2, 4, … equal parts. Each crack opens along the
-/// bisector of a part if its bottom fibre fails before its top fibre does. The parts carry equal shares of V. If they
-/// carry less than the load that opened the last crack, they break under that load.
+/// bisector of a part if its bottom fibre fails before its top fibre does. The parts carry equal shares of V, so each
+/// is pushed with a fraction of the stiffness κ: its softness is larger. If they carry less than the load that opened
+/// the last crack, they break under that load.
 DatabaseAnswer with_radial_cracks(const BendingDatabase& database, const WedgeGroups& whole) {
   constexpr int kMostParts = 16;  // of a half plane: 11° each, narrower than the table's smallest wedge
   const double crack_ratio = database.look_up(whole).crack_ratio;

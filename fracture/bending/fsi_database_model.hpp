@@ -47,7 +47,9 @@ struct BendingForecast {
 /// groups of the load [Sawamura2017, "Plate Ice Breaking"]. The table covers contacts that have not crushed through the
 /// thickness, V = κ ξ². If the load's penetration is deeper than h tan θ_s, the Π of the push κ ξ² with the same force
 /// at the same penetration is used instead; the same holds if the contact's own force is given. Deviation: none known,
-/// since the paper does not print its database. The speed is the mean v_n since first contact.
+/// since the paper does not print its database. The speed is the mean v_n since first contact. If the load has the
+/// openings of the true outline, V_b and R follow from its weakest section. The table then gives the effect of inertia
+/// on V_b and R, the range, and whether a radial crack opens first.
 class FsiDatabaseModel final : public BendingModel {
  public:
   /// Uses the shipped database.

@@ -11,7 +11,8 @@ namespace polynya::fracture {
 namespace {
 
 /// Returns the maximum of the weighted polynomial of fourth degree around `centre`, in t = ln(place / centre) /
-/// ln(reach); nullopt if it lies outside of |t| ≤ 1.
+/// ln(reach); nullopt if it lies outside of |t| ≤ 1, or if there are fewer than seven samples, two more than
+/// coefficients. Newton's method finds it in a few iterations; 30 bound a search that does not converge.
 std::optional<double> quartic_peak(std::span<const double> places, std::span<const double> values, double centre) {
   using Vector5 = Eigen::Matrix<double, 5, 1>;
   Eigen::Matrix<double, 5, 5> normal = Eigen::Matrix<double, 5, 5>::Zero();

@@ -35,7 +35,8 @@ double nevel_force(double opening_angle, double load_length_over_l, const Ice& i
 }
 
 double nevel_cusp_radius_over_l(double load_length_over_l) {
-  constexpr double kFirstSlope = 0.19, kLastSlope = 3.2;  // of the ratio, at both ends of the table
+  // Slopes of the ratio at both ends of the table, which continue its first and last differences.
+  constexpr double kFirstSlope = 0.19, kLastSlope = 3.2;
   static const boost::math::interpolators::cardinal_cubic_b_spline<double> kRatio(
       kRadiusOverRoot.begin(), kRadiusOverRoot.end(), 0.0, kStep, kFirstSlope, kLastSlope);
   constexpr double kLast = kStep * (kRadiusOverRoot.size() - 1);

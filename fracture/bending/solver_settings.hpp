@@ -23,10 +23,10 @@ struct SolverSettings {
   double outer_radius = 8;        ///< where the mesh ends; that edge is free [-]
   int radial_elements = 36;       ///< cubic Hermite elements
   int angular_terms = 5;          ///< even Legendre polynomials across the wedge
-  int panel_rings = 72;           ///< fluid panels along the radius; best a multiple of radial_elements
+  int panel_rings = 72;           ///< fluid panels along the radius; a multiple of radial_elements aligns both meshes
   int panel_columns = 6;          ///< fluid panels across the half wedge
   int free_surface_columns = 10;  ///< fluid panels across the half of the open water, kFreeSurface only
-  int steps_to_failure = 60;      ///< time steps from first contact to the break of a slow push
+  int steps_to_failure = 60;      ///< time steps to the break of a slow push; a fast push breaks later and takes more
 
   friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
 };

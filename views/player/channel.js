@@ -2,7 +2,8 @@
 // hull swept. Both are carried with the water to the time that is shown.
 
 /** Drift of the water at a time: its displacement in x and y since the start of the scene [m], and the velocity of free
- * drift of ice in x and y [m/s], interpolated between samples. */
+ * drift of ice in x and y [m/s]. It is interpolated linearly between the samples [t, x, y, vx, vy], of which there are
+ * at least two, and extrapolated from the nearest two at times outside of them. */
 function driftAt(samples, time) {
   const after = samples.findIndex(([t]) => t > time);
   const k = Math.max(1, after < 0 ? samples.length - 1 : after);
@@ -23,8 +24,9 @@ function makeCarrier({ drift, shear_per_s: shear, shear_direction_rad: direction
   };
 }
 
-/** Returns true if a ship has moved more than 1 m relative to `carry`, which carries points with the water, or leaves
- * them in place for motion over ground. */
+/** Returns true if a ship has moved by more than 1 m from the first frame to the last, relative to `carry`, which
+ * carries points with the water, or leaves them in place for motion over ground. The layers
+ * "channel" and "ice at the start" are on when the page opens only if a ship has. */
 function hasGone(run, motions, ship, carry) {
   const { times } = run.frames;
   const last = times.length - 1;
@@ -46,8 +48,9 @@ function posesUpTo(run, motions, ship, time) {
 }
 
 /** Selects poses at distances of at most `spacing` [m], at which the drawn outlines overlap. Poses are interpolated
- * between distant ones, and left out where the ship moves by less than an eighth of it and turns by less than 0.01 rad.
- * Distances are those of the poses carried with the water to `time`. */
+ * between distant ones. To save drawing, poses are left out where the ship moves by less than an eighth of `spacing`
+ * and turns by less than 0.01 rad, at which the band looks the same; the last pose is always kept. Distances are those
+ * of the poses carried with the water to `time`. */
 function evenly(poses, spacing, carry, time) {
   const placed = ([x, y, , at]) => carry(x, y, at, time);
   const even = [];
@@ -77,8 +80,9 @@ function drawSweptBand(context, view, run, motions, time, colours) {
   });
 }
 
-/** Stations of a ship's channel with ice on both sides, from the last measurement before a time [s], carried with the
- * water to that time. */
+/** Stations that are a channel behind a ship, from the last measurement up to a time [s], carried with the water to
+ * that time. (x, y) is the middle of the station on the track, (fx, fy) the direction of the track, `port` and
+ * `starboard` the distances from the track to the ice, and `along` the distance along the track [m]. */
 function stationsOf(run, ship, time) {
   const { columns: c, info } = run;
   const measured = c.channel_measured_s[lastAtMost(c.channel_measured_s, time)];

@@ -5,7 +5,7 @@
 
 const breakages = { whole: 0, cut: 1, split: 2, bend: 3, cameUp: 4 };
 // A piece with at least this fraction of the area of the scene's floe counts as the cut floe, not as a piece broken off
-// [-].
+// [-]. A larger fraction shows more halves of split floes as pieces.
 const cutShare = 0.2;
 
 /**
@@ -49,7 +49,7 @@ function mixedColour(colour, other, part) {
   return `#${mixed.map((value) => value.toString(16).padStart(2, "0")).join("")}`;
 }
 
-/** Colour of a ship's curves in the plot. */
+/** Colour of a ship's curves in the plot; the theme has five. */
 const shipColour = (colours, ship) => colours[`ship-${ship % 5}`];
 
 /** The five largest of 1, 2, 5 × 10ⁿ below a value in ascending order: the limits of six classes. */
@@ -79,7 +79,8 @@ function extremesOf({ floes, frames }) {
 }
 
 /** Ways of colouring floes, in classes up to the extremes: the value of a floe, limits, colours, and words for the
- * legend. The classes of generations are fixed unless a lineage has more than 20 fractures. */
+ * legend. The classes of generations are fixed unless a lineage has more than 20 fractures. The legend leaves out the
+ * classes for which isUsed() returns false. */
 function makeColourings(run, places, most) {
   const { floes } = run;
   const classes = (edges) => [`below ${edges[0]}`,
@@ -119,7 +120,8 @@ function makeLegend(player) {
 
   const row = (attributes, ...words) => make("span", {}, make("i", attributes), ...words);
   const swatchRow = (colour, ...words) => row({ style: `background: ${colour}` }, ...words);
-  /** A row with an arrow of a round length. `perUnit` is its scale in pixels per unit; `words` describes the length. */
+  /** A row with an arrow of a round length of at most 60 px. `perUnit` is its scale in pixels per unit; `words`
+   * describes the length. */
   function scaleRow(perUnit, words) {
     const length = roundBelow(60 / perUnit);
     return row({ class: "arrow", style: `width: ${length * perUnit}px` }, words(length));

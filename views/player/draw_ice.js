@@ -20,7 +20,8 @@ function makeOutlines({ floes }) {
 }
 
 /** The floes that float at the present time (`living`, of which the first `count` are valid), those that are under
- * hulls or wait behind them (`under`), and their poses and velocities. A floe `isAlive` while it floats. */
+ * hulls or wait behind them (`under`), and their poses and velocities (`spin` is the angular one [rad/s]). A floe
+ * `isAlive` while it floats. */
 function makePlaces(run, motions) {
   const { floes } = run;
   const column = () => new Float64Array(floes.count);
@@ -80,7 +81,9 @@ const classOf = (value, edges) => lastAtMost(edges, value) + 1;
 // Radius [px] of a floe on the screen up to which its edge is not drawn; smaller: drawing takes longer.
 const smallReach = 5;
 
-/** Draws the floes of these ids that are visible. `look` has their colours. */
+/** Draws the floes of these ids that are visible, one class of colours after the other. `look` has their colours:
+ * `bucketOf` gives the class of a floe, `fills` and `edgeOf` the fill and the edge of a class. Edges are thinner where
+ * the map is small, so that edges do not cover small floes. */
 function drawFloes(context, view, run, places, ids, look) {
   const { floes } = run;
   const buckets = look.fills.map(() => []);
@@ -121,9 +124,11 @@ function startPlaces(run, motions, time) {
 // while; only the other floes are drawn each time. The picture can be used as long as the view does not change and none
 // of its floes moves.
 
-// Largest number of floes outside the picture; if there are more, the picture is made for a shorter time.
+// Largest number of floes outside the picture; if there are more, the picture is made for a shorter time. A larger
+// number makes each refresh draw more floes; a smaller one makes the picture anew more often.
 const mostLoose = 1000;
 
+/** Returns drawAll(), which draws the floating ice with such a picture. */
 function makeStillIce(run, places, motions) {
   const { floes, frames: { times } } = run;
   const canvas = make("canvas");
@@ -155,8 +160,9 @@ function makeStillIce(run, places, motions) {
     Object.assign(kept, { from: time, until, loose });
   }
 
-  /** Draws all floating ice at a time. `look` identifies the view and the colours; a picture is discarded if it
-   * changes. A picture is made for the next `ahead` [s]. */
+  /** Draws all floating ice at a time, by calls of `draw` for a target and ids. `look` is a text that identifies the
+   * view and the colours; a picture is discarded if it changes. A picture is made for the next `ahead` [s of the run].
+   * */
   return function drawAll(target, view, look, time, ahead, draw) {
     if (look !== kept.look) { // the view is changing, so that a picture could not be used twice
       Object.assign(kept, { look, until: -1 });

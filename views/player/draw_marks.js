@@ -46,7 +46,8 @@ function strokeWith(context, colour, width) {
   context.stroke();
 }
 
-/** Strokes the current path twice, first wider by `rim` [px], so that it contrasts with ice and water. */
+/** Strokes the current path twice, first wider by `rim`, so that it contrasts with ice and water. Widths are in the
+ * unit of the context: pixels, or metres in the ship's frame. */
 function strokeTwice(context, under, over, width, rim = 2.4) {
   strokeWith(context, under, width + rim);
   strokeWith(context, over, width);
@@ -77,8 +78,8 @@ function traceArrow(context, sx, sy, fx, fy, length) {
 }
 
 /** Draws arrows for the forces of contacts on ships, or on the first floe of two, `perNewton` pixels long per newton.
- * They belong to the last frame and move with the body on which they act. Returns a notice if the run has no contacts.
- * */
+ * They belong to the last frame and move with the body on which they act. Arrows below 1 px are left out. Returns a
+ * notice if the run has no contacts. */
 function drawContactForces(context, view, run, motions, places, time, colours, perNewton) {
   if (run.columns.contact_t_s.length === 0) return "This run recorded no contacts.";
   const contacts = contactsOfFrame(run, motions.frame);
@@ -96,7 +97,8 @@ function drawContactForces(context, view, run, motions, places, time, colours, p
 
 // Other drawings over the ice: velocities, lineage, marks, scale bar.
 
-/** Draws arrows for the velocities of floes and ships, `perSpeed` pixels long for 1 m/s. */
+/** Draws arrows for the velocities of floes and ships, `perSpeed` pixels long for 1 m/s. Arrows below 3 px, which show
+ * no direction, are left out. */
 function drawVelocities(context, view, run, places, motions, colours, perSpeed) {
   const arrow = (x, y, vx, vy) => {
     const length = Math.hypot(vx, vy) * perSpeed;
@@ -148,7 +150,7 @@ function drawLineage(context, view, run, places, id, time, colours) {
   onMap(context, view, { width: 3, dash }, () => drawFloe(context, view, run, places, id, "stroke"));
 }
 
-const mostAncestors = 40; // number of ancestors that are drawn
+const mostAncestors = 40; // number of ancestors that are drawn, the latest ones; more take longer to draw
 
 /** Draws the outlines of ancestors. They share the body frame of the floe, so its pose places them. */
 function drawAncestors(context, view, run, places, id) {
@@ -176,6 +178,7 @@ function drawEventMark(context, x, y, kind, size, colours) {
   strokeWith(context, "#ffffff", 1);
 }
 
+/** Draws the marks of the events until a time that have one (timeline.js), larger for the rare kinds. */
 function drawFractures(context, view, run, time, colours) {
   for (const event of run.info.events) {
     if (event.t_s > time) break;
@@ -217,6 +220,7 @@ function hullBox(waterline) {
   return { ...box, length: box.bow - box.aft, beam: box.port - box.starboard, middle: (box.port + box.starboard) / 2 };
 }
 
+/** Begins a path and adds a line through points to it. */
 function traceLine(context, points) {
   context.beginPath();
   for (const point of points) context.lineTo(...point);

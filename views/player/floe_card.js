@@ -28,7 +28,7 @@ function lineageOf(floes, id) {
 }
 
 /** Substitute for a floe at a time: itself while it exists, before that the floe that it was part of, later its largest
- * piece. */
+ * piece; itself again if no such floe exists at that time. */
 function standIn(run, places, id, time) {
   const { floes } = run;
   for (let at = id; at >= 0; at = floes.parent[at]) {
@@ -45,7 +45,8 @@ function standIn(run, places, id, time) {
   return best;
 }
 
-/** Data of a floe: for each name the text, the exact number of the run, and its unit if it has one. */
+/** Data of a floe: for each name the text, the exact number of the run, and its unit if it has one. Its end is from
+ * lastFacts() in motion.js. */
 function floeFacts(run, places, motions, id) {
   const { floes } = run;
   const speed = motions.isRecorded(id) ? Math.hypot(places.vx[id], places.vy[id]) : null;
@@ -155,6 +156,9 @@ function showEventCard(host, run, event) {
 
 // The selected floe, or the floe under the pointer: its card, and its text on the map.
 
+/** Returns functions for the shown floe. showCard() updates the card when floe or time change, or when `cardIsStale`
+ * reports another selection. While the run plays it leaves the card alone if one of its links has the focus, because
+ * the focus would be lost. */
 function makeShownFloe(player) {
   const { run, state, places, motions } = player;
   let cardShown = "";

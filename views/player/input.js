@@ -11,17 +11,18 @@ function pointIn(element, { clientX, clientY }) {
   return [clientX - box.left, clientY - box.top];
 }
 
-/** Rotation of a wheel, as the logarithm of the zoom factor. Some browsers give it in lines, here of 33 px; pinching on
- * a touchpad has ctrlKey and smaller turns. */
+/** Rotation of a wheel, as the logarithm of the factor by which the map shrinks: 0.0015 per px, so that a notch of some
+ * 100 px zooms by 16 %. Some browsers give it in lines, here of 33 px. Pinching on a touchpad has ctrlKey and smaller
+ * turns, hence 0.01 per px. Larger factors zoom faster. */
 function wheelTurn({ deltaY, deltaMode, ctrlKey }) {
   return (deltaMode === 1 ? 33 * deltaY : deltaY) * (ctrlKey ? 0.01 : 0.0015);
 }
 
 /**
- * Tracks the pointers that are pressed on an element. Positions `at` are in pixels. It calls `start(event, at, count)`
- * when a pointer is pressed, as one of `count`, `drag(at, before)` when a single pressed pointer moves, `pinch(after,
- * before)` when one of two moves, and `end(event, at)` when the last is lifted or the browser cancels it. `hover(event,
- * at)` is called for every move, pressed or not.
+ * Tracks the pointers that are pressed on an element; of a mouse only its main button. Positions `at` are in pixels of
+ * the element. It calls `start(event, at, count)` when a pointer is pressed, as one of `count`, `drag(at, before)` when
+ * a single pressed pointer moves, `pinch(after, before)` when one of two moves, and `end(event, at)` when the last is
+ * lifted or the browser cancels it. `hover(event, at)` is called for every move, pressed or not.
  */
 function watchPointers(element, { start, drag, pinch, hover, end }) {
   const pressed = new Map(); // pointer id → [x, y]
@@ -47,6 +48,8 @@ function watchPointers(element, { start, drag, pinch, hover, end }) {
   }
 }
 
+/** Connects the map to the actions. While isMeasuring() returns true, a drag measures. A second click or tap within 300
+ * ms of the first doubles the scale there; the first has already selected. */
 function watchMap(stage, actions, isMeasuring) {
   let moved = 0; // distance moved since the press [px]; with two fingers large, so that the press is no click
   let waiting = [0, 0]; // motion that is still too small to be more than a click [px]
@@ -115,6 +118,8 @@ function isForControl({ target, key }) {
   return Boolean(target.closest("button, input")) && (key === " " || key === "Enter");
 }
 
+/** Connects the keys: W, A, S and D move the camera up, left, down and right by 60 px; arrows step by one frame, or
+ * with Shift by ten. */
 function watchKeys(actions) {
   const keys = {
     ArrowLeft: ({ shiftKey }) => actions.stepFrames(shiftKey ? -10 : -1),

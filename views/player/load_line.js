@@ -1,6 +1,7 @@
 // Colours the waterlines by the ice loads up to the present time, from the peaks of contacts.csv.
 
-// Length of the panels into which a waterline is divided [m]. Longer panels collect more peaks and show less detail.
+// Length of the panels into which a waterline is divided [m], the same that `polynya loads` uses unless told otherwise.
+// Longer panels collect more peaks and show less detail.
 const loadPanel = 2.5;
 const loadSteps = 5; // number of colours of the scale
 
@@ -10,8 +11,8 @@ function loadColour(q) {
   return `hsl(${55 - 55 * step} 95% ${60 - 30 * step}%)`;
 }
 
-/** Length of a waterline, and distance along it from its first vertex to its stem (simulation/ship/waterline.cpp) [m].
- * */
+/** Length of a waterline, and distance along it from its first vertex to its stem [m]. The stem is the foremost vertex
+ * or the middle of a foremost edge, as in simulation/ship/waterline.cpp, so that peaks lie where they were recorded. */
 function waterlineOf(ring) {
   const next = (k) => ring.at(k - ring.length + 1);
   const sides = ring.map(([x, y], k) => Math.hypot(x - next(k)[0], y - next(k)[1]));

@@ -1,7 +1,8 @@
 // The camera of the map. y points up in the world and down on the screen.
 
 /** Makes the camera of an element, `stage`, in which `canvases` lie. (x, y) is the point of the world in the middle
- * [m], `scale` the size of a metre [px], within 0.001 and 400; `width` and `height` are those of the element [px];
+ * [m], `scale` the size of a metre [px]. Zooming limits it to 0.001, at which 1000 px show 1000 km, and 400, at
+ * which they show 2.5 m; `fit` may exceed these limits. `width` and `height` are those of the element [px];
  * `ratio` is the number of the canvas's own pixels per pixel of the page. */
 function makeMapView(stage, canvases) {
   const view = { x: 0, y: 0, scale: 1, width: 1, height: 1, ratio: 1 };
@@ -37,7 +38,7 @@ function makeMapView(stage, canvases) {
     view.scale = Math.min(view.width / ((box.right - box.left) * margin),
       view.height / ((box.top - box.bottom) * margin));
   };
-  /** Returns true if a disc of the world overlaps the screen. */
+  /** Returns true if the square around a disc of the world [m] overlaps the screen. */
   view.shows = (x, y, radius) =>
     Math.abs(x - view.x) - radius < view.width / 2 / view.scale
       && Math.abs(y - view.y) - radius < view.height / 2 / view.scale;
@@ -52,8 +53,8 @@ function includePoint(box, x, y) {
   box.top = Math.max(box.top, y);
 }
 
-/** Box around the floating floes of a run at the times of `range`, its start and end, and around the ships' tracks in
- * all frames [m]. */
+/** Box around the floating floes of a run at the times of `range`, its start and end, and around the ships in all
+ * frames, of which it contains bow and stern approximately [m]. Without either it is a square of 100 m. */
 function extentOf(run, motions, places, range) {
   const { floes, info, frames } = run;
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };

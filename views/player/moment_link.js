@@ -2,7 +2,8 @@
 // under "A link", all that differ from the opening of the page.
 
 /** Returns the parameters of a link for the present state of the page. `width` [m] is the width of a map that follows a
- * ship; `map` is the centre and width of any other [m]. */
+ * ship; `map` is the centre and width of any other [m]. Numbers are rounded to keep the link short: the time to 0.1 ms,
+ * the map to 1 cm. */
 function momentOf(player) {
   const { state, view, plot, run } = player;
   const words = { t: Number(state.time.toFixed(4)) };
@@ -25,7 +26,7 @@ const written = (value) => encodeURIComponent(value).replaceAll("%2C", ",");
 const linkOf = (words) => `#${Object.entries(words).flatMap(([key, value]) => [value].flat().map((one) =>
   `${key}=${written(one)}`)).join("&")}`;
 
-/** Sets the width of the map [m], within the limits of zooming in map_view.js. */
+/** Sets the width of the map [m]. The scale [px per m] stays within the limits of zooming in map_view.js. */
 function showWidth({ state, view }, width) {
   view.scale = Math.min(400, Math.max(1e-3, view.width / width));
   state.isFitted = false;
@@ -33,7 +34,7 @@ function showWidth({ state, view }, width) {
 }
 
 /** For each parameter of a link, a function that applies its text. It returns a message about a wrong value, or
- * nothing. */
+ * nothing. A range of sizes without its second number, such as "20-", has no upper limit. */
 const momentWords = {
   t(player, text) {
     const { actions, axis } = player;

@@ -54,8 +54,9 @@ class Motions {
     return Math.max(recordsOf[floe], lastAtMost(recordFrame, this.frame, recordsOf[floe], recordsOf[floe + 1]));
   }
 
-  /** Motion of a floe that frames record. If the next frame records it too, the motion is interpolated up to that
-   * record; otherwise the last record is extrapolated at its velocity. */
+  /** Motion of a floe that frames record. A frame leaves out the floes that their last record, extrapolated at its
+   * velocity, places to 1 mm and 1e-5 rad. So if the next frame records the floe too, the motion is interpolated up to
+   * that record; otherwise the last record is extrapolated. */
   ofRecorded(floe) {
     const { times, doubles, recordsOf, recordFrame, recordAt } = this.frames;
     const { motion, recorded, time, frame, part } = this;
@@ -69,7 +70,9 @@ class Motions {
     return motion;
   }
 
-  /** Motion of any floe. A floe that existed only between two frames moves with the floe from which it broke. */
+  /** Motion of any floe. A floe that existed only between two frames moves with the floe from which it broke: the body
+   * frames of both have parallel axes, and centroids (cx, cy) are in the frame of the floe of the scene. Without any
+   * record, as in a run without frames, a floe lies where the scene has it. */
   floe(id) {
     const { floes, motion } = this;
     const by = this.reference[id];
@@ -133,8 +136,8 @@ function readIceUnderHulls(events) {
   return { went: timesOf("submerge").length, cameUpAt: timesOf("resurface") };
 }
 
-/** Outlines ice that is under hulls or waits behind them for room. It is drawn over the ship, which stays visible
- * between the lines. */
+/** Outlines ice that is under hulls or waits behind them for room, with lines of 0.5 to 1.2 px, thinner where the map
+ * is small. It is drawn over the ship, which stays visible through the pale fill (0.25 of its colour). */
 function drawIceUnderHulls(context, view, run, places, colours) {
   onMap(context, view, { width: Math.min(1.2, Math.max(0.5, 0.4 * view.scale)), dash: [3, 2] }, () => {
     context.fillStyle = context.strokeStyle = colours["under-hull"];

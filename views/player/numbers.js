@@ -50,7 +50,8 @@ function fourDigits(value, isSteady = false) {
     (whole.includes(".") || whole.includes("e") ? digit : `${digit}\u202f`)));
 }
 
-/** A value in a base unit ("N", "kg", "m", \u2026) as text: "4 889 t", "0.5 m", "\u2212289.3 N", "0 N". */
+/** A value in a base unit ("N", "kg", "m", \u2026) as text: "4 889 t", "0.5 m", "\u2212289.3 N", "0 N". A whole number
+ * below 1000, such as a count, has no decimals even if `isSteady`. */
 function valueWords(value, base, isSteady = false) {
   const { least } = unitScales[base] ?? otherScale;
   const shown = Math.abs(value) < least ? 0 : value;

@@ -6,7 +6,8 @@ function momentOfPair([first, second], clock) {
   return words;
 }
 
-/** Goes to the instant of a link. Returns messages about parts that were not understood. */
+/** Goes to the instant of a link in the first player, whose settings the second then takes over (`common`), and selects
+ * the floe of the second. Returns messages about parts that were not understood. */
 function goToMomentOfPair([first, second], link) {
   const words = new URLSearchParams(link.replace(/^#/, ""));
   const ofSecond = words.get("floe2");
@@ -42,7 +43,8 @@ function openPlayers() {
   })));
 }
 
-/** Makes the common clock, which replaces the clocks of both players. A run that ends earlier stays at its end. */
+/** Makes the common clock, which replaces the clocks of both players. A run that ends earlier stays at its end; with
+ * `isOver` its map says so. */
 function makePairClock(players) {
   const clock = makeClock(players[0].axis, () => {
     byId("now").textContent = `${clock.time.toFixed(1)} s`;

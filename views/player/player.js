@@ -79,13 +79,15 @@ function showNumbers({ run, state, places, plotPanel, sizePanel, timeline }) {
   timeline.setTime(state.time, `${words}, ${counted(places.count, "floe")}`);
 }
 
+/** Draws at each refresh of the screen what has changed. Tests wait for `drawn`, the number of pictures of the ice.
+ * tools/measure_player.js reads `drawTimes`, the time that each took [ms]; the list is emptied at 2000 to limit it. */
 function startDrawing(player, canvases) {
   const { state, view, places, motions } = player;
   const drawIce = makeIcePicture(player, canvases[0]);
   const drawMarks = makeMarksPicture(player, canvases[1]);
   const shownFloe = makeShownFloe(player);
   const showShip = makeShownShip(player);
-  runClock(state, player.range, () => { // draw what has changed
+  runClock(state, player.range, () => {
     const { iceDirty } = state;
     if (!iceDirty && !state.marksDirty) return;
     const before = performance.now();
@@ -128,7 +130,8 @@ function readPlayedRun(source) {
  * scene that has not run: its `plan`. Otherwise they are empty. */
 const readOptions = () => JSON.parse(byId("page-options").textContent);
 
-/** State of the page when it opens. */
+/** State of the page when it opens. Indices are −1 if nothing is chosen. `iceDirty` is set when all must be drawn
+ * again, `marksDirty` when only the marks above the ice must. */
 function firstState(run, motions, range) {
   const isUnderWay = (carry) => run.frames.times.length > 0 && run.info.ships.some(({ is_moored: isMoored }, ship) =>
     !isMoored && hasGone(run, motions, ship, carry));

@@ -132,7 +132,7 @@ double gap(const Box& box, const Box& other) {
 /// Returns, for each floe, the distance by which a box must grow on all sides so that the floe, or a floe of its
 /// family, comes within it at one of these frames [m]; 0 if one does without. A family are all floes that broke from
 /// one floe of the scene. The distance is estimated from the floes' circles and from the boxes of their paths between
-/// records.
+/// records. HeldFloes only asks whether it is 0.
 std::vector<double> family_distances(const io::Run& run, const Box& box, const std::vector<io::Frame>& frames) {
   std::vector<std::size_t> oldest(run.floes.size());
   std::vector<double> reach(run.floes.size());
@@ -272,6 +272,8 @@ std::vector<ShownCause> shown_causes(const simulation::Scene& scene) {
   return shown;
 }
 
+/// Adds the rows of forces.csv in the selected time. The columns are all that plots show, including the columns of
+/// causes, and for each cause with shares a column without its shares.
 void add_forces(ColumnWriter& columns, const io::Run& run, const io::FrameSelection& selection) {
   std::vector<simulation::HullSample> rows;
   std::ranges::copy_if(run.samples, std::back_inserter(rows),
@@ -333,7 +335,8 @@ void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
 }
 
 /// Writes the drift of the water over time: t [s], x and y of its path [m], and the velocity of free drift of ice in x
-/// and y [m/s]. The duration of the scene is divided into kSamples intervals; steady drift needs only one.
+/// and y [m/s]. The duration of the scene is divided into kSamples intervals, between which the player interpolates
+/// linearly: more follow a changing drift more closely and make the page larger. Steady drift needs only one.
 void write_drift(io::JsonWriter& json, const simulation::Scene& scene) {
   constexpr int kSamples = 400;
   const int samples = scene.water.is_steady() && scene.wind.rows.empty() ? 1 : kSamples;

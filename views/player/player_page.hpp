@@ -61,8 +61,8 @@ struct PlayerData {
   ColumnWriter columns;
   std::size_t frames = 0;
   std::size_t floes = 0;
-  std::size_t floe_bytes = 0;   ///< bytes in `columns` for shapes and properties of floes
-  std::size_t frame_bytes = 0;  ///< bytes in `columns` for positions over time
+  std::size_t floe_bytes = 0;   ///< bytes in `columns` for shapes and properties of floes; for advice on large pages
+  std::size_t frame_bytes = 0;  ///< bytes in `columns` for positions over time; for advice on large pages
   double start = 0;             ///< time of the first frame [s]
   double end = 0;               ///< time of the last frame [s]
 };

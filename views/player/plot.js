@@ -62,6 +62,7 @@ function meanWords(plot) {
   return size > 1 ? `drawn as means over ${shortNumber(size * plot.run.info.forces_interval_s)} s` : "";
 }
 
+/** Shows these texts above the plot; where it is narrow, the style sheet shows the short one. */
 function showOffScale(plot) {
   plot.off = countOffScale(plot);
   const means = meanWords(plot);
@@ -115,7 +116,8 @@ function chartOptions(plot) {
   const placed = (chart) => plot.on.onPlaced(chart.over.offsetLeft, chart.over.offsetWidth);
   return {
     width: plot.host.clientWidth, height: plot.host.clientHeight,
-    // The ends of the time axes of plots one below the other are aligned.
+    // [px]: top, right, bottom, left. Loads have room on top for the text about the scale. The ends of the time axes of
+    // plots one below the other are aligned.
     padding: [plot.isOfLoads() ? 18 : 6, isPaper ? 0 : plot.on.hasPaperAxis() ? axisSize : 24, 0,
       isPlain ? 0 : axisSize],
     legend: { show: false }, cursor: { show: false },
@@ -143,7 +145,8 @@ function chartRows(plot) {
 // Pointers on the plot. Dragging moves to a time, the wheel and two fingers zoom, Shift with dragging selects a part of
 // the run, and a double click shows the whole run.
 
-/** Moves and zooms the plot so that the times under two fingers stay under them. */
+/** Moves and zooms the plot so that the times under two fingers stay under them. Fingers closer than 8 px count as 8 px
+ * apart, so that the plot does not jump. */
 function pinchPlot(plot, after, before) {
   const times = before.map(([px]) => plot.timeAt(px));
   const [a, b] = after.map(([px]) => px);
@@ -171,6 +174,7 @@ function scrollOrZoomPlot(plot, range, event) {
   plot.show(at - factor * (at - plot.span[0]), at + factor * (plot.span[1] - at));
 }
 
+/** Connects the pointers to the plot. A part of the run narrower than 5 px is taken for a slip and not selected. */
 function watchPlot(plot, range, { onTime, onPoint }) {
   const { over } = plot.chart;
   const chosen = make("div", { class: "chosen-span", hidden: "" }); // marks the part that is being selected
@@ -296,7 +300,7 @@ class Plot {
     return Object.fromEntries(this.scales().map((name) => [name, rangeOf(columnsOf(name))]));
   }
 
-  /** Ranges of the axes, by scale, for the visible values. */
+  /** Ranges of the axes, by scale, for the visible values. Quantities other than loads get a margin of 10 %. */
   axisRanges() {
     const needed = this.widened(this.neededRanges());
     const names = Object.keys(needed);
@@ -354,7 +358,7 @@ class Plot {
     this.now.style.transform = `translateX(${((this.time - from) / (until - from || 1)) * width}px)`;
   }
 
-  /** Sets the present time. If it is outside of the visible part, that part follows it. */
+  /** Sets the present time. If it leaves the visible part, that part moves so that the time is at its first tenth. */
   setTime(time) {
     const hasMoved = this.time !== undefined && time !== this.time;
     this.time = time;

@@ -5,8 +5,8 @@
 
 // Least fraction of the rows with a load that the scale shows [-]; smaller: more spikes are cut off.
 const common = 0.99;
-const beyondCommon = 1.25; // the scale extends to this multiple of the value that `common` determines [-]
-const spike = 2; // a value above this multiple of the scale is a spike; without spikes the scale shows everything [-]
+const beyondCommon = 1.25; // a scale without spikes ends at this multiple of the load at the fraction `common` [-]
+const spike = 2; // the scale leaves out spikes only if the largest load exceeds this multiple of its end [-]
 
 /** The value below which the fraction `common` of a column's rows that are not 0 lies, and the largest value, as
  * magnitudes. The first is estimated from at most 5000 rows, so that sorting stays fast. */
@@ -51,7 +51,7 @@ function wholeRange(columns) {
 }
 
 /** Ranges with a margin of 6 %, extended so that 0 is at the same height in all of them. They extend below 0 by at
- * least 4 % of their largest magnitude, and above it by at least 10 %, so that a curve at 0 is visible. */
+ * least 4 % of their largest magnitude, so that a curve at 0 is visible, and above 0 by at least 10 % of it. */
 function alignedRanges(ranges) {
   const size = ([low, high]) => Math.max(high, -low) || 1;
   const below = Math.max(...ranges.map((range) => -range[0] / size(range)));
@@ -72,7 +72,9 @@ function rowsOffScale(times, values, [low, high]) {
 
 // Forces by cause: one column for each cause, whose sum is the force on a ship (io/run/records.cpp).
 
-/** Plots that stack the causes, one for each ship and direction with any force. */
+/** Plots that stack the causes, one for each ship and direction with any force, by their names in a link. Adds the sum
+ * of the causes to the ship's rows as a column. The values of `sums`, the sums of the positive and of the negative
+ * means, are in no column: Plot computes them for the visible rows. */
 function stackedQuantities({ info: { force_causes: causes, ships }, forces }) {
   const quantities = {};
   for (const direction of new Set(causes.map((cause) => cause.direction))) {
@@ -116,8 +118,9 @@ function plotQuantities({ info, forces }) {
 /** Returns true for forces and moments, whose units are N and N·m. */
 const isLoad = (curve) => curve.base.startsWith("N");
 
-/** Index of the row of forces.csv whose interval contains a time: of the first row for earlier times, of the last for
- * later ones; null if there are no rows. */
+/** Index of the row of forces.csv whose interval contains a time [s]: of the first row for earlier times, of the last
+ * for later ones; null if there are no rows. A time at which one interval ends belongs to that interval; the margin of
+ * 1e-9 s allows for rounding. */
 function rowAt(rows, time) {
   const times = rows.force_t_s;
   return times.length === 0 ? null : Math.min(times.length - 1, lastAtMost(times, time - 1e-9) + 1);
@@ -147,7 +150,8 @@ const meanOf = (values) => values.reduce((sum, value) => sum + value / values.le
 
 /** Visible rows combined into columns: the means of each cause that is shown, the line of the sum, the upper and lower
  * limit of the whole stack, and the times between which each column lies [s]. Columns begin at multiples of their
- * number of rows, so that they do not change when the plot moves. */
+ * number of rows, so that they do not change when the plot moves. A row lies between the time of the previous row and
+ * its own; the first has the length of the second. */
 function stackOf(plot) {
   const { ship } = plot.shownQuantity();
   const rows = plot.run.forces[ship];

@@ -1,11 +1,16 @@
 // Reads the run from the page: its columns, and the shapes of its floes.
 
-const mostKeptPoints = 4e6; // largest number of points of assembled shapes that are kept, 64 MB
+// Largest number of points of assembled shapes that are kept, 64 MB. If there are more, all are dropped and assembled
+// again when needed; a smaller number saves memory and costs time.
+const mostKeptPoints = 4e6;
 
 /**
- * Returns a function that gives the points [x, y, ...] of a floe in its body frame [m], ring after ring. A ring ends
- * before the point ring_ends[ring]. The page contains shapes as floes.ndjson does (docs/run-folder.md): whole, or as
- * stretches of the parent's rings and new points. The latter are assembled when they are needed and then kept.
+ * Returns a function that gives the points [x, y, ...] of a floe in its body frame [m], ring after ring. The rings of a
+ * floe are those from rings_of[floe] to before rings_of[floe + 1]; each ends before the point ring_ends[ring], counted
+ * from the floe's first point. The page contains shapes as floes.ndjson does (docs/run-folder.md): whole, or in parts,
+ * in the order of the floe's points. A part is `part_count` points of `part_floe` from the point `part_first`: of the
+ * parent's ring `part_ring`, where it may wrap around from the ring's end to its start, or, if `part_ring` is negative,
+ * of the floe's own new points in points_m. Shapes in parts are assembled when they are needed and then kept.
  */
 function makeShapes({ parent, rings_of: ringsOf, ring_ends: ringEnds, points_m: points, ...parts }) {
   const { part_floe: floeOf, part_ring: ringOf, part_first: firstOf, part_count: countOf } = parts;

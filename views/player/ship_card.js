@@ -10,7 +10,8 @@ function isInRing(ring, x, y) {
   return isInside;
 }
 
-/** Index of the ship or structure whose waterline contains a point of the world; −1 if there is none. */
+/** Index of the ship or structure whose waterline contains a point of the world; −1 if there is none, or no frame that
+ * has its place. */
 function shipAt({ info: { ships } }, motions, x, y) {
   return ships.findIndex(({ waterline_m: ring }, index) => {
     const pose = motions.ship(index);
@@ -105,6 +106,8 @@ function forceTable({ directions, table, sums }) {
     make("tfoot", {}, make("tr", { "data-cause": "sum" }, make("th", { scope: "row" }, "sum"), ...sums.map(cellOf))));
 }
 
+/** Shows the facts and forces of a ship in `host`, or a hint if `index` is negative. Tests find a row by `data-fact`
+ * and its exact value by `data-value`. */
 function showShipCard(host, run, motions, index, time) {
   if (index < 0) return host.replaceChildren(make("p", { class: "hint" }, "Click a ship."));
   const list = make("dl");

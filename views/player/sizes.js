@@ -4,11 +4,13 @@
 
 /** Lower limits of the classes of one decade [m]. */
 const roundSizes = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.3, 8];
-const leastClasses = 6; // least number of classes of the histogram
+// Least number of classes of the histogram; with fewer, floes of nearly one size would fill it with a single bar.
+const leastClasses = 6;
 
 const sizeOf = (floes, id) => Math.sqrt(floes.area[id]);
 
-/** Limits of classes that contain all sizes from the smallest to the largest. */
+/** Limits of classes that contain all sizes from the smallest to the largest. If these are too few, classes are added
+ * below and above in turn. */
 function sizeEdges(least, largest) {
   const edgeOf = (n) => Number((roundSizes[((n % 10) + 10) % 10] * 10 ** Math.floor(n / 10)).toPrecision(3));
   let first = Math.floor(10 * Math.log10(least)) - 1;
@@ -105,8 +107,8 @@ function fillHistogram(host, { edges }) {
   return bars;
 }
 
-/** Handles pointers on the histogram. Dragging selects classes, a click one class; the class under the pointer is
- * described. */
+/** Handles pointers on the histogram. Dragging selects classes, a click one class, a double click none; the class under
+ * the pointer is described. */
 function watchHistogram(host, { edges }, panel, actions) {
   let from = 0;
   const classAt = ([px]) =>

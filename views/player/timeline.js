@@ -65,7 +65,8 @@ function drawTimeline(track, { width, pixelOf }, events, colours) {
 }
 
 /** Index of the event whose mark is within `nearMark` of a point and nearest to it; null if there is none. The
- * distance is measured along the timeline. A mark more than 9 px above or below the point counts as 3 px farther. */
+ * distance is measured along the timeline. A mark more than 9 px above or below the point, which is in the other row of
+ * marks, counts as 3 px farther, so that marks of the pointer's row are preferred. */
 function eventAt(events, { pixelOf }, px, py) {
   let best = null;
   let least = nearMark;
