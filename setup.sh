@@ -2,6 +2,7 @@
 # Installs what Polynya needs from Debian's packages, and nothing else. Asks nothing.
 # Usage: ./setup.sh [group...]   groups: build (default), module (Python's), test, python, bench, view, export, site,
 #                                slurm, package, browser (also configures build/browser: cmake --build --preset browser)
+#                                and windows (also configures build/windows: cmake --build --preset windows)
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -19,6 +20,8 @@ declare -A packages=(
   [browser]="clang-16 lld-16 llvm-16 libc++-16-dev-wasm32 libc++abi-16-dev-wasm32 wasi-libc
            libclang-rt-16-dev-wasm32 cmake ninja-build libcgal-dev libeigen3-dev libboost-dev nlohmann-json3-dev
            libfmt-dev libexpected-dev python3"
+  [windows]="g++-mingw-w64-x86-64-posix wine64 wine cmake ninja-build libcgal-dev libeigen3-dev libboost-dev
+           nlohmann-json3-dev libfmt-dev libexpected-dev python3"
   [slurm]="slurmctld slurmd slurm-client munge"
   [export]="python3-vtk9 python3-pandas python3-shapely"
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"
@@ -39,11 +42,14 @@ for group in "${@:-build}"; do
     is_installed "$package" || missing+=("$package")
   done
 done
-# The group browser needs one more command, which configures its build.
+# The groups browser and windows need one more command, which configures their builds.
 configure() {
-  case " ${*:-build} " in *" browser "*) ;; *) return 0 ;; esac
-  mkdir -p build
-  cmake --preset browser >build/configure-browser.log 2>&1 || { cat build/configure-browser.log >&2; return 1; }
+  local preset
+  for preset in browser windows; do
+    case " ${*:-build} " in *" $preset "*) ;; *) continue ;; esac
+    mkdir -p build
+    cmake --preset "$preset" >"build/configure-$preset.log" 2>&1 || { cat "build/configure-$preset.log" >&2; return 1; }
+  done
 }
 [ ${#missing[@]} -gt 0 ] || { configure "$@"; exit; }
 

@@ -64,6 +64,7 @@ PACKAGES = {
     r"CLI/": ["app/command_line/command_line.cpp"],
     r"fmt/": ["simulation/", "io/", "analysis/", "views/", "cosim/", "browser/module/", "app/", "python/module/"],
     r"pybind11/": ["python/module/"],
+    r"windows\.h": ["cosim/windows/"],
     r"tl/expected": [""],
 }
 # Headers that a browser lacks (files, programs, threads) -> the only folders or files that may include them. Other code

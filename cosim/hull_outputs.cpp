@@ -1,7 +1,8 @@
 #include "cosim/hull_outputs.hpp"
 
 #include <array>
-#include <cmath>
+
+#include "elementary/elementary.hpp"
 
 namespace polynya::cosim {
 namespace {
@@ -81,7 +82,9 @@ constexpr HullOutput kOutputs[] = {
     {"mooring.sway_N", "N", "force of the mooring, to port", false, kOfShips, sway<&HullSample::from_mooring>},
     {"mooring.yaw_Nm", "N.m", "moment of the mooring", false, kOfShips, yaw<&HullSample::from_mooring>},
     {"largest_ice_force_N", "N", "largest horizontal force of the ice around the hull in one time step", false, false,
-     [](const HullOutputs& o) { return std::hypot(o.sample.from_ice_largest.surge, o.sample.from_ice_largest.sway); }},
+     [](const HullOutputs& o) {
+       return elementary::hypot(o.sample.from_ice_largest.surge, o.sample.from_ice_largest.sway);
+     }},
     {"largest_contact_N", "N", "largest force of one contact with ice, at the ends of ticks", false, false,
      [](const HullOutputs& o) { return o.largest_contact; }},
     {"contacts", "", "number of contacts with ice at the end", kCount, false,

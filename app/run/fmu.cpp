@@ -22,6 +22,7 @@ constexpr auto kFmuExamples =
     "Examples:\n"
     "  polynya fmu scenes/route-in-ice.json --out ship.fmu      a unit for FMI 2.0 co-simulation, on linux64\n"
     "  polynya fmu my-scene.json --out ship.fmu --set ice.thickness_m=0.8\n"
+    "  polynya fmu my-scene.json --out ship.fmu --win64 build/windows/cosim_unit/polynya.dll      also for Windows\n"
     "\n"
     "docs/couple.md explains its inputs and outputs.\n"
     "Exit codes: 0 done, 2 usage, 3 scene invalid, 5 input/output.\n";
@@ -29,6 +30,7 @@ constexpr auto kFmuExamples =
 struct FmuOptions {
   std::string scene;
   std::string out;
+  std::string windows_library;  ///< empty: none
   std::vector<std::string> set;
 };
 
@@ -43,21 +45,22 @@ int add_needed(dl_phdr_info* info, std::size_t, void* list) {
 
 /// Returns the library of the unit, and the shared libraries of GMP and MPFR that this program uses. The unit's library
 /// is beside the program's folder in the build tree, and below lib/polynya in an installation.
-io::Result<std::vector<fs::path>> unit_libraries() {
+io::Result<std::vector<cosim::UnitLibrary>> unit_libraries() {
   std::error_code error;
   const fs::path above = fs::read_symlink("/proc/self/exe", error).parent_path().parent_path();
-  std::vector<fs::path> libraries;
+  std::vector<fs::path> files;
   for (const char* place : {"cosim_unit", "lib/polynya/cosim_unit"})
-    if (libraries.empty() && fs::exists(above / place / "polynya.so", error))
-      libraries.push_back(above / place / "polynya.so");
-  if (libraries.empty())
+    if (files.empty() && fs::exists(above / place / "polynya.so", error)) files.push_back(above / place / "polynya.so");
+  if (files.empty())
     return io::fail(
         fmt::format("the library of co-simulation units, polynya.so, is neither in {0}/cosim_unit nor in "
                     "{0}/lib/polynya/cosim_unit; build or install polynya again",
                     above.string()));
-  dl_iterate_phdr(add_needed, &libraries);
-  std::ranges::sort(libraries.begin() + 1, libraries.end());
-  if (libraries.size() != 3) return io::fail("this program runs without shared libraries of GMP and MPFR to pack");
+  dl_iterate_phdr(add_needed, &files);
+  std::ranges::sort(files.begin() + 1, files.end());
+  if (files.size() != 3) return io::fail("this program runs without shared libraries of GMP and MPFR to pack");
+  std::vector<cosim::UnitLibrary> libraries;
+  for (const fs::path& file : files) libraries.push_back({file, "linux64", file.filename().string()});
   return libraries;
 }
 
@@ -77,8 +80,9 @@ int make_unit(const FmuOptions& options) {
   // The unit gets the scene as the user wrote it, so that values that follow from its keys also follow from parameters.
   // With floe files or values of the command line it gets the resolved scene, because only that contains them.
   const bool is_whole = scene->files.empty() && options.set.empty();
-  const auto libraries = unit_libraries();
+  auto libraries = unit_libraries();
   if (!libraries) return fail(kInputOutput, libraries.error());
+  if (!options.windows_library.empty()) libraries->push_back({options.windows_library, "win64", "polynya.dll"});
   const auto unit = cosim::pack_unit(is_whole ? *text : scene->resolved_text, *scene, *libraries);
   if (!unit) return fail(kInputOutput, unit.error());
   if (const auto written = write_output(options.out, *unit); !written) return fail(kInputOutput, written.error());
@@ -95,6 +99,8 @@ Command add_fmu(CommandLine& app) {
   auto options = std::make_shared<FmuOptions>();
   add_scene(command, options->scene);
   command.option("--out", &options->out, "FILE.fmu", "File for the unit", not_empty(), {.is_required = true});
+  command.option("--win64", &options->windows_library, "FILE.dll",
+                 "The unit's library for 64-bit Windows, which the unit then has too", not_empty());
   add_set(command, options->set);
   return {command, [options] { return make_unit(*options); }};
 }

@@ -7,6 +7,13 @@
 
 #include "cosim/unit/component.hpp"
 
+/// A function that a master finds by its name. The library shows no others.
+#ifdef _WIN32
+#define POLYNYA_EXPORT extern "C" __declspec(dllexport)
+#else
+#define POLYNYA_EXPORT extern "C" __attribute__((visibility("default")))
+#endif
+
 namespace polynya::cosim {
 
 /// Calls `work` with an instance, as a function of the standard does: the call must be allowed in the instance's mode,

@@ -5,8 +5,6 @@
 #include "cosim/unit/calls.hpp"
 #include "cosim/unit/resource_folder.hpp"
 
-#define POLYNYA_EXPORT extern "C" __attribute__((visibility("default")))
-
 using polynya::cosim::call;
 using polynya::cosim::Component;
 using polynya::cosim::Mode;

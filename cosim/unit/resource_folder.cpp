@@ -19,6 +19,9 @@ io::Result<std::string> folder_of(std::string_view uri) {
   }
   if (!path.starts_with('/')) return wrong();
   std::string folder;
+#ifdef _WIN32
+  if (path.size() > 2 && path[2] == ':') path.remove_prefix(1);  // file:///C:/folder
+#endif
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (path[i] != '%') {
       folder += path[i];

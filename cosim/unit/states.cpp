@@ -4,8 +4,6 @@
 
 #include "cosim/unit/calls.hpp"
 
-#define POLYNYA_EXPORT extern "C" __attribute__((visibility("default")))
-
 using polynya::cosim::call;
 using polynya::cosim::Component;
 using polynya::cosim::Mode;

@@ -4,8 +4,6 @@
 #include "cosim/unit/calls.hpp"
 #include <fmt/format.h>
 
-#define POLYNYA_EXPORT extern "C" __attribute__((visibility("default")))
-
 using polynya::cosim::call;
 using polynya::cosim::Causality;
 using polynya::cosim::Component;

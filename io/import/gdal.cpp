@@ -195,7 +195,7 @@ FileKind kind_of(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, error)) return FileKind::kForeign;
   if (!std::filesystem::is_regular_file(file, error))
     return FileKind::kOwn;  // opening a pipe would wait for its writer
-  std::FILE* const stream = std::fopen(file.c_str(), "rb");
+  std::FILE* const stream = std::fopen(file.string().c_str(), "rb");
   if (!stream) return FileKind::kOwn;
   std::array<char, 4096> bytes{};
   const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), stream);

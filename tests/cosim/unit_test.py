@@ -192,6 +192,15 @@ class Library(unittest.TestCase):
         for name in ("libtbb", "libfmt", "libstdc++"):
             self.assertFalse([path for path in loaded if pathlib.Path(path).name.startswith(name)], name)
 
+    def test_a_file_that_is_no_library_of_windows_is_not_packed(self):
+        out = SCRATCH / "none.fmu"
+        for file, words in ((SCENE, "not a library of Windows"), (SCRATCH / "missing.dll", "no such file")):
+            done = subprocess.run([PROGRAM, "fmu", SCENE, "--out", out, "--win64", file], text=True, check=False,
+                                  capture_output=True)
+            self.assertEqual(done.returncode, 5)
+            self.assertIn(f"{file}: {words}", done.stderr)
+            self.assertFalse(out.exists())
+
     def test_the_same_scene_gives_the_same_bytes(self):
         first, second = (SCRATCH / name for name in ("one.fmu", "two.fmu"))
         for archive in (first, second):

@@ -54,6 +54,18 @@ def test_what_was_compared_is_marked():
     assert is_validated(ice_scenes.LEVEL, inside) and not is_validated(ice_scenes.LEVEL, {**inside, "thickness_m": 0.6})
 
 
+@pytest.mark.parametrize(("words", "counts"), [
+    (("--pack",), "54 points, 108 runs"),
+    (("--pack", "--cover", "0.5", "--fields", "3"), "18 points, 54 runs"),
+    (("--level", "--speed", "1,2"), "6 points, 6 runs"),
+])
+def test_a_list_of_points_starts_no_run(tmp_path, words, counts):
+    printed = succeeded("performance", "reference", *words, "--list", cwd=tmp_path).stdout.splitlines()
+    assert printed[-1] == counts
+    assert len(printed) == 2 + int(counts.split()[0])
+    assert not list(tmp_path.iterdir())
+
+
 SHIP = {"hull": {"length_m": 40, "beam_m": 10, "draught_m": 3, "stem_angle_deg": 30, "entrance_angle_deg": 30},
         "propulsion": {"engine": {"bollard_pull_kN": 200, "open_water_speed_m_per_s": 6}}}
 ASKED = {

@@ -41,6 +41,14 @@ def wanted_points(regime, arguments):
     return points_of(arguments.speed or SPEEDS[regime], arguments.thickness or THICKNESSES[regime], covers, sizes)
 
 
+def print_points(points, seeds):
+    """Prints what the table would have, for --list."""
+    print(f"{'V [m/s]':>8}{'h [m]':>8}{'C':>7}{'floes [m]':>11}")
+    for point in points:
+        print(f"{point['speed_m_per_s']:8g}{point['thickness_m']:8g}{point['cover']:7g}{point['floe_size_m']:11g}")
+    print(f"{len(points)} points, {len(points) * seeds} runs")
+
+
 def print_table(rows):
     print(f"{'V [m/s]':>8}{'h [m]':>8}{'C':>7}{'floes [m]':>11}{'R [kN]':>10}{'± fields':>10}{'contact':>10}"
           f"{'under hull':>12}{'fit [kN]':>10}")
@@ -94,13 +102,16 @@ def main(arguments, found, ice, fail, codes):
     if arguments.list and name == ice_scenes.CHANNEL:
         rules.print_table(rules.rows(found["ship"], []), found["ship"])
         return done
+    points, seeds = wanted_points(name, arguments), 1 if name == ice_scenes.LEVEL else arguments.fields
+    if arguments.list:
+        print_points(points, seeds)
+        return done
     folder = arguments.out or os.path.join("runs", f"resistance-{found['name']}")
     os.makedirs(folder, exist_ok=True)
-    runs = Resistance(name, found["ship"], ice, folder, program(),
-                      1 if name == ice_scenes.LEVEL else arguments.fields, arguments.step)
+    runs = Resistance(name, found["ship"], ice, folder, program(), seeds, arguments.step)
     beam = found["ship"]["hull"]["beam_m"]
     try:
-        rows = runs.rows(wanted_points(name, arguments), arguments.jobs, report_progress)
+        rows = runs.rows(points, arguments.jobs, report_progress)
         with_resistance = [row for row in rows if row["resistance_N"] > 0]
         fitted = colbourne.fit(with_resistance, [row["resistance_N"] for row in with_resistance], beam, ice.density)
     except (RunFailed, colbourne.NotEnough) as error:

@@ -88,8 +88,9 @@ def command_line():
     meaning = "Number of runs at a time; one per processor if not given"
     parser.add("--jobs", meaning, type=number(1, 1024, kind=int), metavar="N")
     add_coefficients(parser)
-    parser.add("--list", "Print only the speeds by the formulas, with --channel the ice class rules, without a run",
-               action="store_true")
+    meaning = ("Print only the speeds by the formulas, with --channel the ice class rules, or with --pack and --level "
+               "the points of the table, without a run")
+    parser.add("--list", meaning, action="store_true")
     return parser
 
 

@@ -13,5 +13,6 @@ void check_steps(const Unit* unit);
 void check_log(const Unit* unit);
 void check_rollback(const Unit* unit);
 void check_two(const Unit* first, const Unit* second);
+void check_course(const Unit* unit, const char* path, const char* state);
 
 #endif

@@ -1,11 +1,20 @@
 #include "unit.h"
 
-#include <dlfcn.h>
 #include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#ifdef _WIN32
+#include <windows.h>
+#define LIBRARY "binaries/win64/polynya.dll"
+#define URI "file:///" /* before C:/folder */
+#else
+#include <dlfcn.h>
+#define LIBRARY "binaries/linux64/polynya.so"
+#define URI "file://" /* before /folder */
+#endif
 
 static _Noreturn void stop(const char* what, const char* more) {
   fprintf(stderr, "master: %s %s\n", what, more);
@@ -25,16 +34,33 @@ static void read_variables(Unit* unit, const char* folder) {
   fclose(file);
 }
 
+#ifdef _WIN32
+static void open_library(Unit* unit, const char* path) {
+  unit->library = LoadLibraryA(path);
+  if (!unit->library) stop("LoadLibrary fails:", path);
+}
+static void* find_function(const Unit* unit, const char* name) {
+  return (void*)GetProcAddress(unit->library, name);
+}
+#else
+static void open_library(Unit* unit, const char* path) {
+  unit->library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+  if (!unit->library) stop("dlopen:", dlerror());
+}
+static void* find_function(const Unit* unit, const char* name) {
+  return dlsym(unit->library, name);
+}
+#endif
+
 void load_unit(Unit* unit, const char* folder) {
   char path[4200];
   memset(unit, 0, sizeof *unit);
   read_variables(unit, folder);
-  snprintf(unit->resources, sizeof unit->resources, "file://%s/resources", folder);
-  snprintf(path, sizeof path, "%s/binaries/linux64/polynya.so", folder);
-  unit->library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-  if (!unit->library) stop("dlopen:", dlerror());
-#define POLYNYA_FMI2_FIND(result, name, parameters)     \
-  *(void**)(&unit->name) = dlsym(unit->library, #name); \
+  snprintf(unit->resources, sizeof unit->resources, URI "%s/resources", folder);
+  snprintf(path, sizeof path, "%s/" LIBRARY, folder);
+  open_library(unit, path);
+#define POLYNYA_FMI2_FIND(result, name, parameters)    \
+  *(void**)(&unit->name) = find_function(unit, #name); \
   if (!unit->name) stop("the library has no function", #name);
   POLYNYA_FMI2_FUNCTIONS(POLYNYA_FMI2_FIND)
 #undef POLYNYA_FMI2_FIND

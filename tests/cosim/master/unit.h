@@ -1,4 +1,5 @@
-/* A co-simulation unit as a master has it: its library, loaded by dlopen, its functions, and its variables by name. */
+/* A co-simulation unit as a master has it: its library, loaded by dlopen or LoadLibrary, its functions, and its
+   variables by name. */
 #ifndef POLYNYA_TESTS_COSIM_UNIT_H
 #define POLYNYA_TESTS_COSIM_UNIT_H
 
