@@ -61,7 +61,9 @@ Payment pay(const CrushingForce& law, double paid, double reached, double work) 
   if (!(work > 0 && law.force > 0 && law.depth > 0 && reached > paid)) return {paid, 0};
   const double n = law.exponent;
   const double scale = law.force * law.depth / (n + 1);  // ∫ F dξ from 0 to the depth [J]
-  const auto paid_for = [&](double depth) { return scale * elementary::pow(depth / law.depth, n + 1); };
+  const auto paid_for = [&](double depth) {
+    return depth == law.depth ? scale : scale * elementary::pow(depth / law.depth, n + 1);
+  };
   const double before = paid_for(paid);
   const double to_reached = paid_for(reached) - before;
   if (work >= to_reached) return {reached, to_reached};
@@ -79,7 +81,8 @@ void settle(bool are_prescribed, Contact& c) {
   if (c.paid_depth_after > c.paid_depth) {
     // If the force is a fraction of the crushing force, its work has crushed the same fraction of the ice that it let
     // in. For the rest the floe's edge has given way.
-    const double let_in = std::max(0.0, area_at(c, c.paid_depth_after) - record.paid_area);
+    const double open = c.paid_depth_after == c.depth_after ? record.area : area_at(c, c.paid_depth_after);
+    const double let_in = std::max(0.0, open - record.paid_area);
     c.paid_by_work = c.crushing_share * let_in;
     c.paid_by_giving_way = let_in - c.paid_by_work;
   }
