@@ -128,10 +128,7 @@ def test_an_option_that_a_use_ignores_is_refused_with_the_uses_it_is_for(use, ca
             assert ended_by.value.code == 2 and capsys.readouterr().err.startswith(f"polynya performance: {problem}\n")
 
 
-def test_a_list_of_what_needs_runs_is_refused():
-    for regime in ("--pack", "--level"):
-        done = ended("performance", "polaris", regime, "--list")
-        assert done.returncode == 2 and done.stdout == "" and "--channel --list" in done.stderr
+def test_what_is_not_given_has_its_value():
     read = read_options(["polaris"])
     assert (read.error, read.fields) == (0.03, 2) and read.jobs >= 1
 

@@ -18,6 +18,8 @@ USES = {
     "--pack": OF_ICE | OF_RUNS | OF_FIELDS | {"speed"},
     "--level": OF_ICE | OF_RUNS | {"speed"},
     "--channel": OF_ICE | OF_RUNS | OF_FIELDS | {"speed"},
+    "--pack --list": OF_FIELDS | {"speed", "thickness"},
+    "--level --list": {"speed", "thickness"},
     "--channel --list": set(),
 }
 
@@ -95,7 +97,7 @@ def command_line():
 
 
 def use_of(arguments):
-    """The use of the command that the options ask for: a key of USES, if there is such a use."""
+    """The use of the command that the options ask for: a key of USES."""
     regime = next((f"--{name}" for name in ("pack", "level", "channel") if getattr(arguments, name)), "")
     return " ".join(filter(None, [regime, "--list" if arguments.list else ""])) or next(iter(USES))
 
@@ -104,9 +106,6 @@ def problem_of(arguments):
     """What is wrong with options that are valid one by one: an option that the use of the command does not read. An
     empty text if nothing is."""
     use = use_of(arguments)
-    if use not in USES:
-        return (f"--list: {use.partition(' ')[0]} has nothing to print without a run; allowed: --list alone, which "
-                "prints the speeds by the formulas, or --channel --list, which prints the ice class rules")
     for name in sorted(set().union(*USES.values()) - USES[use]):
         if getattr(arguments, name) is not None:
             others = ", ".join(other for other, names in USES.items() if name in names)
