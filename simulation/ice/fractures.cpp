@@ -138,7 +138,8 @@ void apply_fractures(const Setup& setup, const Step& step, StepData& data, Popul
       const bool is_bend = pending.failure == fracture::Failure::kBend;
       if (is_bend && !pending.is_in_range) ++books.accounts.counts.database_out_of_range;
       if (breakage.inside == InsideFate::kUnderHull) {
-        start_cusp(pending, pressed_mass(setup, population, pending, *outcome), population);
+        start_cusp(step, pending, pressed_mass(setup, population, pending, *outcome), population,
+                   {data.loads[pending.ship], books.accounts.audit});
         breakage.has_decks = has_decks(setup, pending);
         if (breakage.has_decks) add_decks(setup, pending, *outcome, population);
       }

@@ -31,12 +31,6 @@ Vector ahead_of(const Population& population, const PendingFracture& bend) {
   return rotate_back(population.bodies.rotation[population.body_of(bend.floe)], bend.normal);
 }
 
-/// The loads and accounts in which an impulse on a hull is recorded.
-struct HullBooks {
-  HullLoads& loads;
-  AuditSums& audit;
-};
-
 /// An impulse on a hull, and its arm from the hull's centre of mass, both in the water frame.
 struct HullImpulse {
   BodyIndex ship = 0;
@@ -167,23 +161,25 @@ double pressed_mass(const Setup& setup, const Population& population, const Pend
   return mass;
 }
 
-void start_cusp(const PendingFracture& bend, double mass, Population& population) {
+void start_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books) {
   const DrivenEdge& edge = bend.driven_edge;
   const BodyIndex ship = bend.ship;
   if (edge.speed <= 0) return;
-  const dynamics::Bodies& bodies = population.bodies;
+  dynamics::Bodies& bodies = population.bodies;
   const Vector arm = bend.point_in_water - bodies.position[ship];
   // The hull is slowed down by the impulse that it gives, because edge and hull then move on together.
   const double slowed = edge.speed_per_approach * speed_by(bodies, ship, arm, bend.normal, edge.horizontal);
   const double given = mass * edge.speed / (1 + mass * std::max(0.0, slowed));  // impulse down on the edge [N s]
   const geometry::Rotation of_ship = bodies.rotation[ship];
-  population.accelerating_cusps.push_back({.ship = ship,
-                                           .arm_in_ship = rotate_back(of_ship, arm),
-                                           .normal_in_ship = rotate_back(of_ship, bend.normal),
-                                           .horizontal_in_ship = rotate_back(of_ship, edge.horizontal),
-                                           .impulse_left = given,
-                                           .largest_force = bend.criteria.bending_capacity,
-                                           .distance_left = bend.cusp_radius});
+  AcceleratingCusp cusp{.ship = ship,
+                        .arm_in_ship = rotate_back(of_ship, arm),
+                        .normal_in_ship = rotate_back(of_ship, bend.normal),
+                        .horizontal_in_ship = rotate_back(of_ship, edge.horizontal),
+                        .impulse_left = given,
+                        .largest_force = bend.criteria.bending_capacity,
+                        .distance_left = bend.cusp_radius};
+  press(step, cusp, bodies, books);
+  if (!is_finished(cusp)) population.accelerating_cusps.push_back(cusp);
 }
 
 bool has_decks(const Setup& setup, const PendingFracture& bend) {

@@ -6,12 +6,18 @@
 
 namespace polynya::simulation {
 
-/// Law of crushing ice: adds a cusp that a bend breaks off, and that goes under the hull (`InsideFate::kUnderHull`), to
-/// Population::accelerating_cusps. The edge of the cusp must reach the speed that the slope of the hull gives it, and
-/// the impulse for this brakes the hull from the next step on (accelerate_cusps()): it must not act after sail(), where
-/// the water that moves with the ship would take no part of it. `mass` is the effective mass of the cusps at the edge
-/// that the hull presses down [kg] (pressed_mass()).
-void start_cusp(const PendingFracture& bend, double mass, Population& population);
+/// The loads and accounts in which an impulse on a hull is recorded.
+struct HullBooks {
+  HullLoads& loads;
+  AuditSums& audit;
+};
+
+/// Law of crushing ice: accelerates a cusp that a bend breaks off and that goes under the hull
+/// (`InsideFate::kUnderHull`). The edge of the cusp must reach the speed that the slope of the hull gives it, and the
+/// impulse for this brakes the hull. The force never exceeds the one at which the ice broke, so the impulse may take
+/// several steps; accelerate_cusps() gives the rest of it. The impulse is added to the loads of the hull and to the
+/// accounts. `mass` is the effective mass of the cusps at the edge that the hull presses down [kg] (pressed_mass()).
+void start_cusp(const Step& step, const PendingFracture& bend, double mass, Population& population, HullBooks books);
 
 /// Returns the effective mass of a cut's cusps at the edge that the hull presses down, including the water that moves
 /// with them [kg].
@@ -26,10 +32,8 @@ bool has_decks(const Setup& setup, const PendingFracture& bend);
 /// has_decks() is true.
 void add_decks(const Setup& setup, const PendingFracture& bend, const geometry::CutResult& cut, Population& population);
 
-/// Accelerates the cusps whose edges have not reached the hull's speed yet, and brakes their hulls. The force never
-/// exceeds the one at which the ice broke, so the impulse of a cusp may take several steps. The impulses are added to
-/// the loads of the hulls and to the accounts. A cusp is removed from the list when it has reached the speed, or when
-/// the hull has passed it.
+/// Continues to accelerate the cusps whose edges have not reached the hull's speed yet. A cusp is removed from the list
+/// when it has reached it, or when the hull has passed it.
 void accelerate_cusps(const Step& step, Population& population, std::vector<HullLoads>& loads, AuditSums& audit);
 
 /// Turns the cusps under hulls further by the displacement of their hull in the step, and lets water flow onto their

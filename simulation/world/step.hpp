@@ -103,8 +103,8 @@ void pull_of_submerged_ice(const Setup& setup, const Step& step, Population& pop
                            AuditSums& audit);
 
 /// Moves ships by water, engine, steering and mooring (ship/sailing.hpp). The stages before it give their impulses to
-/// ships without added mass, and the added mass takes its part of them here. So no later stage may change the motion
-/// of a ship.
+/// ships without added mass, and the added mass takes its part of them here. It takes no part of later impulses, those
+/// by which apply_fractures() brakes ships.
 void sail(const Setup& setup, const Step& step, StepData& data, Population& population, Accounts& accounts);
 
 /// Law of impulses: pushes overlaps apart, over several steps. Adds the work that this does on moorings to the

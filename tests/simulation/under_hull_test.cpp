@@ -391,37 +391,16 @@ TEST(TurningCusp, MovesOnWithTheHullThatItSlows) {
   cut.pieces.push_back({{rectangle(0.1, -6, 6.1, 6)}, geometry::Part::kInside});
   const fracture::Ice ice;
   const double mass = fracture::edge_mass(ice, world.setup.scene.water.water, {72, 6, 12 * 6. * 6 * 6 / 3});
-  std::vector<HullLoads> loads(1);
+  HullLoads loads;
   bend.criteria.bending_capacity = 1e12;  // all of it in one step
   Step step;
   step.length = 0.01;
-  start_cusp(bend, pressed_mass(world.setup, world.population, bend, cut), world.population);
-  accelerate_cusps(step, world.population, loads, world.accounts.audit);
+  start_cusp(step, bend, pressed_mass(world.setup, world.population, bend, cut), world.population,
+             {loads, world.accounts.audit});
   const double given = (speed - bodies.velocity[0].x) * light.mass / 0.9;  // down on the edge [N s]
   EXPECT_NEAR(given / mass, slope * bodies.velocity[0].x, 1e-9 * speed);
   EXPECT_LT(bodies.velocity[0].x, 0.6 * speed) << "the cusp should weigh as much as the ship";
   EXPECT_GT(bodies.velocity[0].x, 0);
-}
-
-/// The added mass takes its part of the impulses on a ship in the stage that moves ships. A later impulse would change
-/// the motion of the ship alone, as if no water moved with her.
-TEST(TurningCusp, NoStageAfterSailChangesTheMotionOfAShip) {
-  Ship ship = in_water(with_draught(icebreaker({-0.5, 0}, ConstantThrust{1e6}, 3)));
-  World world(Build().step(0.05).cusps(CuspFate::kUnderHull).ship(ship).floe(rectangle(0.1, -50, 100, 50)));
-  const dynamics::Bodies& bodies = world.population.bodies;
-  geometry::Vector sailed;
-  while (world.clock.time() < 10) {
-    world.last_step = step_of(world.setup, world.clock, 0, 1);
-    world.last_step.threads = 1;
-    for (const Stage& stage : stages_of(world.setup.scene.contact.law)) {
-      stage.run(world, world.last_step);
-      if (std::string_view(stage.name) == "sail") sailed = bodies.velocity[0];
-    }
-    ASSERT_EQ(bodies.velocity[0], sailed) << world.clock.time() << " s";
-    ++world.clock.ticks;
-    end_tick(world);
-  }
-  EXPECT_GT(world.accounts.counts.bends, 10);
 }
 
 }  // namespace
