@@ -5,7 +5,8 @@ Errors are drawn at random by a seed from all code of geometry, dynamics, fractu
 bounds and comparisons. A list is a file of JSON lines beside this script, an error each: where it is, the line as it is
 and as it is planted, and what is known of it: "found by" a test, "survives", "equivalent" with the reason why nothing
 can find it, or "stale" where the source has changed since. seed-1.ndjson and seed-2.ndjson were drawn at commit
-b8fd7019, seed-3.ndjson at 00b66873 without a look at the tests. Where a survivor led to a new test, the list names that test.
+b8fd7019, seed-3.ndjson at 00b66873 without a look at the tests. Where a survivor led to a new test, the list names
+that test.
 
 Usage: planted_errors.py draw SEED COUNT LIST      writes a new list
        planted_errors.py check LIST                names the errors whose lines are not in the sources any more
