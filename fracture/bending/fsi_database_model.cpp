@@ -72,7 +72,7 @@ DatabaseAnswer with_radial_cracks(const BendingDatabase& database, const WedgeGr
 /// Returns the length λ over which a push is supported, in l. At rest the water alone supports it and λ is 1; in a fast
 /// push the inertia of ice and water supports it too. λ follows from the R of a narrow wedge in the database, with and
 /// without speed, by R ∝ λ^½. The radii of sections with this λ then follow the radii of the database with the speed,
-/// within 10 % up to 3 m/s (test FollowTheDatabaseWithSpeed).
+/// within 12 % up to 3 m/s (test FollowTheDatabaseWithSpeed).
 double effective_length(const BendingDatabase& database, const WedgeGroups& whole) {
   constexpr double kNarrow = 60 * geometry::kRadiansPerDegree;  // parts this narrow do not crack
   WedgeGroups part = whole;

@@ -178,7 +178,10 @@ void kind_fields(Line& line, auto& event, Kind& e) {
   line("normal", e.normal_in_world, {"", "unit normal from the hull into the ice; [0, 0] if nothing pressed"});
   line.object({"", "criterion: the rule that applied, and both sides of the comparison"},
               [&] { criterion_of(line, e); });
-  line("penetration_m", e.penetration, {"m", "ξ, crushed depth of the contact"});
+  line("penetration_m", e.penetration,
+       {"m",
+        "depth ξ of the contact: its crushed part for a bend or a split by Michel's rule; else the depth of the "
+        "overlap, or 0"});
   if constexpr (requires { e.cusp_radius; })
     line("cusp_radius_m", e.cusp_radius, optional(e.cusp_radius > 0, {"m", "radius R of the cusp of a bend", {}, 0}));
   line("submerged_area_m2", e.submerged_area, {"m²", "area removed under the ship permanently", "submerged", 0});

@@ -93,8 +93,8 @@ const Description<dynamics::Wind> kWind{
 const Description<ContactSettings> kContact{
     {member("circle_radius_m", "m", from(0.01, 100), "radius of the contact circles", &ContactSettings::circle_radius),
      choice<ContactNormal>("normal",
-                           "how the normal of a contact is computed: from the boundary pieces that the touching "
-                           "circles represent, or along the line between the circles' centres (the paper's rule)",
+                           "how the normal of a contact is computed: from the boundaries where the bodies overlap, or "
+                           "along the line between the centres of the touching circles (the paper's rule)",
                            {{"boundary", ContactNormal::kBoundary}, {"circle-centres", ContactNormal::kCircleCentres}},
                            &ContactSettings::normal),
      choice<ContactLaw>("law",

@@ -254,8 +254,7 @@ namespace {
 
 /// Smallest crushed overlap that is cut off a floe while the contact lasts, as a fraction of the area of the smaller
 /// body [-]. After the contact has ended, h² is the limit if it is smaller. Smaller values replace floes by new ones at
-/// every touch; larger values leave more overlap. As much again may overlap without having pressed, so bodies that
-/// separate may be left with an overlap of twice this fraction, 1 %.
+/// every touch; larger values leave more overlap when the bodies separate.
 constexpr double kLeastCrushedShare = 0.005;
 
 /// Returns the smallest crushed overlap that is cut off after a contact has ended [m²].

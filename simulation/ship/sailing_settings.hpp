@@ -131,7 +131,7 @@ enum class ManagementPattern {
   kSector,       ///< to and fro along an arc about the body
   kCircular,     ///< round an ellipse
   kRacetrack,    ///< two legs across the drift, and half circles
-  kLargestFloe,  ///< to the largest floe that will pass near the body, then to the next one
+  kLargestFloe,  ///< to the largest floe in the box of the pattern, then to the next one
 };
 /// Another ship that follows the same pattern.
 struct PatternPartner {

@@ -159,8 +159,8 @@ TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
   }
 }
 
-/// A file size limit of 64 kB simulates a full disk: forces.csv or floes.ndjson reaches it. After the limit is removed,
-/// the run continues.
+/// A limit on the size of files simulates a full disk: forces.csv or floes.ndjson reaches it. After the limit is
+/// removed, the run continues.
 TEST_F(Resume, AfterAFullDiskTheRunGoesOn) {
   write_file(folder_ / "scene.json", crash_scene("100"));
   ASSERT_EQ(polynya("run scene.json --out whole", start_).code, 0);

@@ -126,7 +126,7 @@ std::vector<std::string> subcommands(const std::string& help) {
 
 std::set<std::string> long_options(const std::string& help) {
   std::set<std::string> found;
-  static const std::regex kOption(R"(\n  (?:-\w,)?(--[a-z-]+))");
+  static const std::regex kOption(R"(\n  (?:-\w,)?(--[a-z0-9-]+))");
   for (std::sregex_iterator at(help.begin(), help.end(), kOption), end; at != end; ++at) found.insert((*at)[1]);
   return found;
 }

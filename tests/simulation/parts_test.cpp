@@ -109,7 +109,8 @@ TEST(Parts, AFewThinFloesDoNotChooseTheTick) {
   EXPECT_LT(default_tick(scene), tick);
 }
 
-/// In ice of 3 m a hull may move less in a part than in ice of 0.5 m (kWayTimesThickness): 12.5 mm instead of 75 mm.
+/// In ice of 3 m a hull may move less in a part than in ice of 0.5 m (kDisplacementTimesThickness): 12.5 mm instead of
+/// 75 mm.
 TEST(Parts, MuchThickIceChoosesTheTickAsThinIceDoes) {
   Build scene = in_level_ice(0.5, 8, 0.005).recorded_every(0.1);
   const double tick = default_tick(scene);

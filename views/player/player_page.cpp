@@ -80,6 +80,8 @@ class ScratchFolder {
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
+  /// False if the folder could not be made.
+  bool is_made() const { return !path_.empty(); }
   fs::path run() const { return path_ / "run"; }
 
  private:
@@ -89,6 +91,8 @@ class ScratchFolder {
 /// Returns the run of a scene before its first step.
 io::Result<io::Run> first_frame(const io::LoadedScene& scene) {
   const ScratchFolder folder;
+  if (!folder.is_made())
+    return io::fail(fs::temp_directory_path().string() + ": no folder can be made for the first frame of the scene");
   auto run = io::start_run(folder.run(), scene);
   if (!run) return io::fail(run.error());
   io::RunRecorder(run->simulation, run->writer, scene).begin(run->simulation.journal());

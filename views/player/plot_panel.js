@@ -81,13 +81,12 @@ function addPlotView(player, panel, quantity) {
 }
 
 /** Makes the panel. A run without ships has no loads: its plots are hidden and never built, and the timeline is placed
- * here instead of by the time axis of the first plot. */
+ * here, with a margin of 8 px at either end, instead of by the time axis of the first plot. */
 function makePlotPanel(player) {
   const { state } = player;
   const hasShips = player.run.info.ships.length > 0;
   const panel = { views: [], pointed: null };
   const plots = () => panel.views.map(({ plot }) => plot);
-  // With a margin of 8 px at either end.
   const placeTimeline = () => player.timeline.place(8, byId("track-row").clientWidth - 16, player.colours);
   const sizes = new ResizeObserver(() => panel.resize());
   const finish = () => {

@@ -42,7 +42,7 @@ class Fit:
 
     tail: extremes.Tail
     events: bursts.Events
-    goodness_p: float  #: p value of Anderson and Darling's test
+    goodness_p: float  #: common p value of the three tests of extremes.goodness()
 
     @property
     def is_heavy(self):
