@@ -7,7 +7,7 @@ const fs = require("node:fs");
 const os = require("node:os");
 const path = require("node:path");
 const zlib = require("node:zlib");
-const { newPage, startBrowser, startFirefox } = require("../view/browser.js");
+const { newPage, startBrowser, startFirefox, writeText } = require("../view/browser.js");
 
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-broken-"));
 let browser = null;
@@ -86,7 +86,7 @@ for (const [name, change] of Object.entries(broken)) {
     await page.keyboard.press("r");
     await page.keyboard.press(" ");
     await page.selectOption("#scenes", { index: 1 });
-    await page.fill("#text", `// mine\n${await page.inputValue("#text")}`);
+    await writeText(page, `// mine\n${await page.inputValue("#text")}`);
     await page.waitForFunction(() => window.polynyaPage.page.text.startsWith("// mine"));
     await page.waitForTimeout(700); // longer than the delay after which a scene is read
     await isSaid();
@@ -94,7 +94,8 @@ for (const [name, change] of Object.entries(broken)) {
     assert.equal(await page.locator("#save-scene").isDisabled(), false);
     await page.locator("#stage").focus();
     await page.keyboard.press("Control+z");
-    assert.equal(await page.evaluate(() => window.polynyaPage.page.text.startsWith("// mine")), false);
-    assert.deepEqual(page.errors, []);
+    await page.waitForFunction(() => !window.polynyaPage.page.text.startsWith("// mine"));
+    const ofFirefox = /^Failed to read data from the ReadableStream/; // its own line about the packed bytes
+    assert.deepEqual(page.errors.filter((words) => !ofFirefox.test(words)), []);
   });
 }

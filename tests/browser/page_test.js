@@ -1,14 +1,14 @@
 "use strict";
 // The page in a browser: running, editing, steering, saving and reloading a scene, and its messages about wrong scenes.
-// PAGE is the path of the page, POLYNYA_BINARY the native program. BROWSER=firefox tries it in Firefox: there the driver
-// has neither downloads nor touch, so that what the page offers for download is taken from it, and the mouse steers.
+// PAGE is the path of the page, POLYNYA_BINARY the native program. BROWSER=firefox tries it in Firefox: its driver has
+// neither downloads nor touch, so that what the page offers for download is taken from it, and the mouse steers.
 const { test, after, before } = require("node:test");
 const assert = require("node:assert/strict");
 const { execFileSync } = require("node:child_process");
 const fs = require("node:fs");
 const os = require("node:os");
 const path = require("node:path");
-const { newPage, startBrowser, startFirefox } = require("../view/browser.js");
+const { newPage, startBrowser, startFirefox, writeText } = require("../view/browser.js");
 
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-page-"));
 const source = path.resolve(__dirname, "../..");
@@ -36,7 +36,7 @@ const text = (page) => page.evaluate(() => window.polynyaPage.page.text);
 const messageOf = (page) => page.locator("#message span").textContent();
 const setText = async (page, words) => {
   await page.click("#tab-text");
-  await page.fill("#text", words);
+  await writeText(page, words);
   await page.evaluate(() => { document.body.dataset.phase = "waiting"; });
   await inPhase(page, "ready", "refused");
 };
@@ -143,7 +143,7 @@ test("ships, waypoints and floes are moved by mouse, ships are turned, and undon
       return [x + Math.max(...info.ships[0].waterline_m.map((p) => p[0])) + 26 / scale, y];
     }
   });
-  await drag(page, await onScreen(page, bow), await onScreen(page, [-90, 160]));
+  await drag(page, await onScreen(page, bow), await onScreen(page, [-90, 110]));
   assert.ok(Math.abs((await scene()).ships[0].heading_deg - 90) < 5);
   await drag(page, await onScreen(page, [300, 40]), await onScreen(page, [250, -30]));
   const [waypoint] = (await scene()).ships[0].pilot.route.waypoints;
@@ -237,7 +237,8 @@ for (const width of [360, 768, 1440]) {
       const own = isFirefox ? await startFirefox(colorScheme) : null; // its colour scheme is a setting of the program
       t.after(() => own?.close());
       const page = await openPage({ by: own ?? browser, viewport: { width, height: 800 }, colorScheme });
-      assert.equal(await page.evaluate(() => matchMedia("(prefers-color-scheme: dark)").matches), colorScheme === "dark");
+      const isDark = await page.evaluate(() => matchMedia("(prefers-color-scheme: dark)").matches);
+      assert.equal(isDark, colorScheme === "dark");
       const wrong = await page.evaluate(() => {
         const shown = [...document.querySelectorAll("button, select, input, textarea, summary")].filter((control) =>
           control.checkVisibility() && !control.closest("#study-page"));
@@ -255,7 +256,8 @@ for (const width of [360, 768, 1440]) {
         await page.selectOption("#rate", "100");
         await page.click("#run");
         await page.waitForTimeout(1500);
-        await page.screenshot({ path: path.join(process.env.SHOTS, `${process.env.BROWSER ?? "chromium"}-${width}-${colorScheme}.png`) });
+        const name = `${process.env.BROWSER ?? "chromium"}-${width}-${colorScheme}.png`;
+        await page.screenshot({ path: path.join(process.env.SHOTS, name) });
       }
       assert.deepEqual(page.errors, []);
     });

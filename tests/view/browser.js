@@ -26,6 +26,13 @@ exports.newPage = async (browser, options) => {
   return page;
 };
 
+/** Writes into the field for the scene's text. In Firefox the driver's own `fill` sometimes never returns. */
+exports.writeText = (page, words) => (page.context().browser().browserType().name() === "firefox"
+  ? page.locator("#text").evaluate((area, value) => {
+    area.value = value;
+    area.dispatchEvent(new Event("input", { bubbles: true }));
+  }, words) : page.fill("#text", words));
+
 /** Opens a page written by `polynya view`. */
 exports.openPage = async (browser, file, options = {}) => {
   const page = await exports.newPage(browser, { viewport: { width: 1360, height: 820 }, ...options });

@@ -1,5 +1,5 @@
-// Contrast of the player's texts, in light and dark (WCAG 2.1, 1.4.3: at least 4.5), with its cards, its legends and the
-// values of five ships, each in the colour of its ship.
+// Contrast of the player's texts, in light and dark (WCAG 2.1, 1.4.3: at least 4.5), with its cards, its legends and
+// the values of five ships, each in the colour of its ship.
 "use strict";
 const { test, before, assert, folder, open } = require("./bench.js");
 const { makeRun, makePage, smallScene, ship } = require("./runs.js");
