@@ -43,7 +43,8 @@ function makeWorker(compiled, hear) {
 /** Makes the state of the page and the objects that belong to it. */
 function makePage() {
   const canvas = byId("ice");
-  const page = { text: "", number: 0, run: null, broken: "", phase: "loading", undo: [], redo: [], files: new Map(), isDirty: true,
+  const page = { text: "", number: 0, run: null, broken: "",
+    phase: "loading", undo: [], redo: [], files: new Map(), isDirty: true,
     by: "generation", colours: themeColours(), chosen: null, tool: null, isFitted: true, schema: null, frames: [],
     errors: 0 };
   page.view = makeMapView(byId("stage"), [canvas]);
