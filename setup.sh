@@ -27,19 +27,25 @@ declare -A packages=(
   [bench]="libbenchmark-dev libbox2d-dev libchipmunk-dev libgeos-dev libpolyclipping-dev"
 )
 
+# Packages that not every system has. Without them some tests are skipped, which say so.
+declare -A optional=([browser]="firefox-esr")
+
 # Programs that may have come from elsewhere than their package of Debian's.
-declare -A program=([chromium]=chromium [nodejs]=node [npm]=npm)
+declare -A program=([firefox-esr]=firefox-esr [chromium]=chromium [nodejs]=node [npm]=npm)
 
 is_installed() {
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ] ||
     { [ -n "${program[$1]:-}" ] && command -v "${program[$1]}" >/dev/null; }
 }
 
-missing=()
+missing=() wanted=()
 for group in "${@:-build}"; do
   [ -n "${packages[$group]:-}" ] || { echo "setup.sh: no such group: $group (there are: ${!packages[*]})" >&2; exit 2; }
   for package in ${packages[$group]}; do
     is_installed "$package" || missing+=("$package")
+  done
+  for package in ${optional[$group]:-}; do
+    is_installed "$package" || wanted+=("$package")
   done
 done
 # The groups browser and windows need one more command, which configures their builds.
@@ -51,22 +57,28 @@ configure() {
     cmake --preset "$preset" >"build/configure-$preset.log" 2>&1 || { cat "build/configure-$preset.log" >&2; return 1; }
   done
 }
-[ ${#missing[@]} -gt 0 ] || { configure "$@"; exit; }
+[ ${#missing[@]} -gt 0 ] || [ ${#wanted[@]} -gt 0 ] || { configure "$@"; exit; }
 
 command -v apt-get >/dev/null || {
+  [ ${#missing[@]} -gt 0 ] || { configure "$@"; exit; }
   echo "setup.sh: this machine has no apt-get; please install by hand: ${missing[*]}" >&2; exit 1; }
 as_root=()
 if [ "$(id -u)" -ne 0 ]; then
   command -v sudo >/dev/null || {
+    [ ${#missing[@]} -gt 0 ] || { configure "$@"; exit; }
     echo "setup.sh: please run this as root, there is no sudo: apt-get install ${missing[*]}" >&2; exit 1; }
   as_root=(sudo)
 fi
 
-echo "Installing Debian packages: ${missing[*]}"
+echo "Installing Debian packages: ${missing[*]} ${wanted[*]}"
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 run() { "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive "$@" >>"$log" 2>&1; }
 run apt-get update || true # an unreachable extra source is no error; the install below reports faults
-run apt-get install -y --no-install-recommends "${missing[@]}" || {
+[ ${#missing[@]} -eq 0 ] || run apt-get install -y --no-install-recommends "${missing[@]}" || {
   tail -n 25 "$log" >&2; echo "setup.sh: the installation failed; its last lines are above" >&2; exit 1; }
+for package in "${wanted[@]}"; do
+  run apt-get install -y --no-install-recommends "$package" ||
+    echo "setup.sh: $package cannot be had here; the tests that need it will be skipped"
+done
 configure "$@"

@@ -47,6 +47,8 @@ std::string words_of(const io::LoadedScene& scene) {
   json.key("floes").value(scene.scene.floes.size()).key("memory_bytes").value(memory.all_moving);
   json.key("limit_bytes").value(io::memory_available().bytes).key("ships").value(scene.scene.ships.size());
   json.key("memory_at_start_bytes").value(memory.at_start).key("hash").value(scene.hash);
+  json.key("forces_interval_s").value(recording_interval(scene.scene));
+  json.key("splits_by_j_over_tau_c").value(splits_by_j_over_tau_c(scene.scene));
   write_ships(json, scene.scene);
   json.close('}');
   text.pop_back();

@@ -96,11 +96,12 @@ const runAnswers = (page, parts) => ({
     showPhase(page, "ended");
   },
   broken({ words, order }) {
+    if (order === "open") return showBroken(page, parts, words);
     showMessage(`The simulator broke down${order === "load" ? " while it read this scene" : ""} (${words}). It was `
       + "started anew; change the scene, or choose another.");
     parts.worker.replace();
     page.isReading = false;
-    showPhase(page, "refused");
+    return showPhase(page, "refused");
   },
   run: openStudy,
   async folder({ files }) {

@@ -14,7 +14,8 @@ HERE = pathlib.Path(__file__).parent
 SOURCE = HERE.parent.parent
 PLAYER = SOURCE / "views/player"
 # Scripts of the player that draw ice and ships and handle pointers.
-SHARED = ["numbers.js", "motion.js", "map_view.js", "colours.js", "draw_ice.js", "draw_marks.js", "plan.js", "input.js"]
+SHARED = ["numbers.js", "motion.js", "map_view.js", "colours.js", "draw_ice.js", "draw_marks.js", "plan.js", "input.js",
+          "plot_curves.js", "plot.js"]
 OWN = ["save.js", "scene_text.js", "live_run.js", "live_map.js", "edit.js", "form.js", "plots.js", "helm.js", "page.js",
        "answers.js", "map_pointers.js", "live_actions.js", "start.js"]
 WORKER = ["files.js", "simulator.js", "worker.js"]

@@ -75,15 +75,20 @@ function makeLivePlaces() {
   return places;
 }
 
-/** Loads so far, as one growing column per hull and quantity. */
+/** Loads so far: a table for each hull with a column for each quantity, as the player's plot reads them. */
 function makeLiveForces(hulls, columns) {
-  const names = ["sample_s", ...columns.map(({ name }) => name)];
-  const forces = hulls.map(() => Object.fromEntries(names.map((name) => [name, []])));
-  return { of: forces, append(added) {
-    added.sample_hull.forEach((hull, row) => {
-      for (const name of names) forces[hull][name].push(added[name][row]);
-    });
-  } };
+  const names = ["force_t_s", ...columns.map(({ name }) => name)];
+  const growing = hulls.map(() => new Map(names.map((name) => [name, makeGrowing(Float64Array)])));
+  const tables = hulls.map(() => ({}));
+  const append = (added) => {
+    added.sample_hull.forEach((hull, row) => growing[hull].forEach((column, name) =>
+      column.append([name === "force_t_s" ? added.sample_s[row] : added[name][row]])));
+    growing.forEach((of, hull) => of.forEach(({ values, count }, name) => {
+      tables[hull][name] = values.subarray(0, count);
+    }));
+  };
+  append({ sample_hull: [] });
+  return { tables, append };
 }
 
 /** Makes the run of a scene that the module has read. */
@@ -92,10 +97,14 @@ function makeLiveRun(words) {
   const hulls = words.hulls.map(() => new Float64Array(8));
   const ships = words.hulls.map(({ name, waterline_m, can_be_steered: canBeSteered }, k) =>
     ({ name, waterline_m, canBeSteered, is_fixed: k >= words.ships }));
+  const forces = makeLiveForces(words.hulls, words.force_columns);
   const run = {
     words, floes, time: 0, counts: { bends: 0, splits: 0, ground: 0 }, events: [], tracks: ships.map(() => []),
-    info: { ships, patterns: [], force_columns: words.force_columns },
-    places: makeLivePlaces(), forces: makeLiveForces(words.hulls, words.force_columns),
+    // Which quantities and causes a run has is known at its end only: it offers all quantities, and no stacked causes.
+    info: { ships, patterns: [], force_columns: words.force_columns.map((one) => ({ ...one, is_optional: false })),
+      force_causes: [], forces_interval_s: words.forces_interval_s,
+      splits_by_j_over_tau_c: words.splits_by_j_over_tau_c },
+    places: makeLivePlaces(), forces: forces.tables,
     motions: { ship: (index) => hulls[index] }, hasPlaces: false,
   };
   run.outline = makeOutlines(run);
@@ -110,7 +119,7 @@ function makeLiveRun(words) {
       const last = track.at(-1);
       if (!last || Math.hypot(x - last[0], y - last[1]) > 1) track.push([x, y]);
     });
-    run.forces.append(columns);
+    forces.append(columns);
     for (const line of new TextDecoder().decode(columns.events).split("\n"))
       if (line) run.events.push(JSON.parse(line));
     run.hasPlaces = true;

@@ -1,18 +1,25 @@
 // The page: its scene, its worker, its controls.
 
-/** Unpacks and compiles the bytes of the module. */
+/** Unpacks and compiles the bytes of the module. Returns it as `compiled`, or the reason why there is none. */
 async function compileModule() {
-  const packed = bytesOfBase64(byId("module").textContent.trim());
-  byId("module").remove();
-  return WebAssembly.compile(await throughStream(packed, new DecompressionStream("gzip")));
+  if (!window.WebAssembly || !window.DecompressionStream)
+    return { compiled: null, reason: "it is too old, it has no WebAssembly or no DecompressionStream" };
+  try {
+    const packed = bytesOfBase64(byId("module").textContent.trim());
+    byId("module").remove();
+    return { compiled: await WebAssembly.compile(await throughStream(packed, new DecompressionStream("gzip"))) };
+  } catch (failure) {
+    return { compiled: null, reason: failure.message };
+  }
 }
 
 /** Makes a worker with the simulator; `hear` receives its messages. A worker that is stopped is replaced by a new one.
- * */
+ * Without a module (null) there is no worker, and orders have no effect: the scene can still be edited and saved. */
 function makeWorker(compiled, hear) {
   const address = URL.createObjectURL(new Blob([byId("worker-script").textContent], { type: "text/javascript" }));
   let worker = null;
   const start = () => {
+    if (!compiled) return;
     worker = new Worker(address);
     worker.onmessage = ({ data }) => hear(data);
     worker.onerror = (event) => {
@@ -22,9 +29,13 @@ function makeWorker(compiled, hear) {
     worker.postMessage({ order: "open", compiled });
   };
   start();
-  return { ask: (order, words = {}) => worker.postMessage({ order, ...words }),
+  return { ask: (order, words = {}) => worker?.postMessage({ order, ...words }),
+    end() {
+      worker?.terminate();
+      worker = compiled = null;
+    },
     replace() {
-      worker.terminate();
+      worker?.terminate();
       start();
     } };
 }
@@ -32,7 +43,8 @@ function makeWorker(compiled, hear) {
 /** Makes the state of the page and the objects that belong to it. */
 function makePage() {
   const canvas = byId("ice");
-  const page = { text: "", number: 0, run: null, phase: "loading", undo: [], redo: [], files: new Map(), isDirty: true,
+  const page = { text: "", number: 0, run: null, broken: "",
+    phase: "loading", undo: [], redo: [], files: new Map(), isDirty: true,
     by: "generation", colours: themeColours(), chosen: null, tool: null, isFitted: true, schema: null, frames: [],
     errors: 0 };
   page.view = makeMapView(byId("stage"), [canvas]);
@@ -43,22 +55,34 @@ function makePage() {
   return page;
 }
 
-const phaseWords = { loading: "Run", ready: "Run", running: "Pause", paused: "Run", ended: "Run", refused: "Run" };
+const phaseWords = { loading: "Run", ready: "Run", running: "Pause", paused: "Run", ended: "Run", refused: "Run",
+  broken: "Run" };
 
 /** Enables the controls that can be used in the present phase. */
 function showPhase(page, phase = page.phase) {
-  page.phase = phase;
+  page.phase = phase = page.broken ? "broken" : phase;
   const canRun = ["ready", "running", "paused"].includes(phase);
   byId("run").textContent = phaseWords[phase];
   byId("run").disabled = !canRun;
   byId("step").disabled = !["ready", "paused"].includes(phase);
-  byId("again").disabled = phase === "loading" || !page.run;
+  byId("again").disabled = ["loading", "broken"].includes(phase) || !page.run;
   byId("study").disabled = byId("save-run").disabled = !["paused", "ended", "running"].includes(phase);
   byId("edit-bar").classList.toggle("off", !["ready", "refused", "loading"].includes(phase));
   byId("undo").disabled = page.undo.length === 0;
   byId("redo").disabled = page.redo.length === 0;
   byId("delete").disabled = !page.chosen || !["hull", "floe", "waypoint"].includes(page.chosen.kind);
   document.body.dataset.phase = phase;
+}
+
+/** Says that the simulator cannot run here. The scene's text can still be edited and saved. */
+function showBroken(page, parts, reason) {
+  page.broken = reason;
+  page.isReading = false;
+  parts.worker.end();
+  showPhase(page);
+  showTab("text"); // the form is made from the module's schema
+  showMessage(`The simulator does not start in this browser: ${reason}. Scenes can be edited and saved here, but not `
+    + "run. The file of this page may be incomplete; get it again.");
 }
 
 function showMessage(words, canStop = false) {

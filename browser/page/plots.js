@@ -1,73 +1,53 @@
-// Plots that grow with the run. They show one quantity at a time, with a curve for each hull and column.
+// The plot that grows with the run: the player's plot (views/player/plot.js) over the part of the run that there is.
 
-/** Quantities of a run: titles with their columns. */
-function liveQuantities(columns) {
-  const quantities = new Map();
-  for (const column of columns) {
-    if (!column.plot) continue;
-    if (!quantities.has(column.plot)) quantities.set(column.plot, []);
-    quantities.get(column.plot).push(column);
-  }
-  return quantities;
-}
+const shortestRun = 20; // least number of rows of loads over which the time axis reaches
 
-const plotHeight = 150; // height of the plot [px]
-
-/** Options of a chart with the curves {hull, name, unit, isMean, label}. */
-function chartOptions(curves, width, colours) {
-  const axis = { stroke: colours.muted, grid: { stroke: colours.line, width: 1 }, ticks: { show: false } };
-  const { unit } = curves[0];
-  return {
-    width, height: plotHeight, cursor: { y: false }, legend: { show: false }, scales: { x: { time: false } },
-    axes: [{ ...axis, values: (_, values) => values.map((value) => `${value} s`) },
-      { ...axis, size: 76, values: (_, values) => values.map((value) => valueWords(value, unit)) }],
-    series: [{}, ...curves.map(({ hull, label, isMean }) => ({ label, stroke: shipColour(colours, hull),
-      width: isMean ? 1.5 : 1, dash: isMean ? [] : [4, 3], points: { show: false } }))],
-  };
-}
-
-/** Curves of a quantity, one for each hull and column. */
-function curvesOf({ info: { ships, force_columns: columns } }, quantity) {
-  const several = ships.length > 1;
-  return ships.flatMap(({ name: ship }, hull) => (liveQuantities(columns).get(quantity) ?? []).map(({ name, unit,
-    curve }) => ({ hull, name, unit, isMean: curve === "mean", label: several ? `${ship}: ${curve}` : curve })));
-}
-
-function makeLivePlot(element, select, colours) {
-  let chart = null;
-  let shown = null; // {run, curves, rows}
-  const width = () => Math.max(100, element.clientWidth);
-  const data = () => [shown.run.forces.of[0]?.sample_s ?? [],
-    ...shown.curves.map(({ hull, name }) => shown.run.forces.of[hull][name])];
+function makeLivePlot(host, select, colours) {
+  let plot = null;
+  let run = null;
+  let rows = 0;
+  let showLoads = () => {};
+  const none = () => {};
+  const on = { onTime: none, onPoint: none, onPlaced: none, onSpan: none,
+    hasPaperAxis: () => plot.scales().includes("paper") };
 
   function build() {
-    chart?.destroy();
-    chart = null;
-    if (!shown) return;
-    shown.curves = curvesOf(shown.run, select.value);
-    if (shown.curves.length > 0) chart = new uPlot(chartOptions(shown.curves, width(), colours()), data(), element);
+    if (!plot || plot.ships().length === 0) return;
+    plot.build(colours());
+    plot.now.remove(); // the present is the plot's right end
+    showLoads = fillPlotKey(run, plot, byId("load-now"), build);
+    showLoads(run.time);
   }
 
-  select.addEventListener("change", build);
-  new ResizeObserver(() => chart?.setSize({ width: width(), height: plotHeight })).observe(element);
+  select.addEventListener("change", () => {
+    plot.quantity = select.value;
+    build();
+  });
+  new ResizeObserver(() => plot?.resize()).observe(host);
   return {
-    show(run) {
-      shown = { run, curves: [], rows: 0 };
-      const quantities = [...liveQuantities(run.info.force_columns).keys()];
-      const before = select.value;
-      select.replaceChildren(...quantities.map((title) => make("option", {}, title)));
-      if (quantities.includes(before)) select.value = before;
-      element.closest("section").hidden = run.info.ships.length === 0;
+    show(shown) {
+      const before = plot?.quantity;
+      plot?.chart?.destroy();
+      [run, rows] = [shown, 0];
+      plot = new Plot(run, host, [0, shortestRun * run.info.forces_interval_s], on);
+      if (plot.quantities[before]) plot.quantity = before;
+      select.replaceChildren(...Object.entries(plot.quantities).map(([value, { label }]) =>
+        make("option", { value }, label)));
+      select.value = plot.quantity;
+      host.closest("section").hidden = run.info.ships.length === 0;
       build();
     },
     /** Draws the rows that were added since the last call. */
     grow() {
-      const rows = shown?.run.forces.of[0]?.sample_s.length ?? 0;
-      if (!chart || rows === shown.rows) return;
-      shown.rows = rows;
-      chart.setData(data());
+      const count = run?.forces[0]?.force_t_s.length ?? 0;
+      if (!plot?.chart || count === rows) return;
+      rows = count;
+      plot.range[1] = Math.max(plot.range[1], run.forces[0].force_t_s[rows - 1]);
+      plot.chart.setData(chartRows(plot));
+      showOffScale(plot);
+      showLoads(run.time);
     },
-    rows: () => shown?.rows ?? 0,
+    rows: () => rows,
     refresh: build,
   };
 }

@@ -6,6 +6,7 @@ function makeSceneSetter(page, parts) {
   function load() {
     page.hasNew = true;
     page.chosen = null;
+    if (page.broken) return showBroken(page, parts, page.broken);
     if (page.isReading) parts.worker.replace();
     page.isReading = true;
     ++page.number;
@@ -117,14 +118,7 @@ async function startPage() {
   const parts = { texts, own, showForm: () => showForm(page, parts.setScene) };
   byId("scenes").replaceChildren(...(own === null ? [] : [make("option", { value: "own" }, "this scene")]),
     ...texts.map(({ title }, k) => make("option", { value: k }, title)));
-  if (!window.WebAssembly || !window.DecompressionStream)
-    return showMessage("This browser is too old for the simulator: it needs WebAssembly and DecompressionStream.");
-  let compiled = null;
-  try {
-    compiled = await compileModule();
-  } catch (failure) {
-    return showMessage(`The simulator does not start in this browser: ${failure.message}`);
-  }
+  const { compiled, reason } = await compileModule();
   parts.refreshTheme = () => {
     page.colours = themeColours();
     page.plot.refresh();
@@ -143,7 +137,7 @@ async function startPage() {
   watchLiveMap(page, parts.setScene);
   page.view.resize();
   startDrawing(page, parts.worker, parts.helm);
+  if (!compiled) showBroken(page, parts, reason);
   parts.setScene(await firstScene(texts, own), { isNew: true });
   window.polynyaPage = { page, parts, actions };
-  return undefined;
 }

@@ -4,6 +4,7 @@
 
 const longestSlice = 0.016; // longest time of stepping between two looks at messages [s]; longer: the page reacts later
 let simulator = null;
+let opened = null; // settles when the module has started: other orders may arrive before
 let pace = { rate: 1, from: 0, since: 0 }; // the run should be at `from` [s] when the clock is at `since` [ms]
 let isRunning = false;
 let isPictureWanted = true;
@@ -51,7 +52,8 @@ const keepPace = (rate, from) => { pace = { rate, from, since: performance.now()
 
 const orders = {
   async open({ compiled }) {
-    simulator = await makeSimulator(compiled);
+    opened = makeSimulator(compiled);
+    simulator = await opened;
     say("ready", { schema: simulator.schema(), version: simulator.version() });
   },
   /** Reads a scene and prepares its start. */
@@ -110,6 +112,7 @@ const orders = {
 };
 
 onmessage = async ({ data }) => {
+  if (data.order !== "open" && await opened.then(() => false, () => true)) return; // "open" has said that it failed
   try {
     await orders[data.order](data);
   } catch (failure) {

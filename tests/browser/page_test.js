@@ -1,18 +1,20 @@
 "use strict";
-// The page in Chromium: running, editing, steering, saving and reloading a scene, and its messages about wrong scenes.
-// PAGE is the path of the page, POLYNYA_BINARY the native program.
+// The page in a browser: running, editing, steering, saving and reloading a scene, and its messages about wrong scenes.
+// PAGE is the path of the page, POLYNYA_BINARY the native program. BROWSER=firefox tries it in Firefox: its driver has
+// neither downloads nor touch, so that what the page offers for download is taken from it, and the mouse steers.
 const { test, after, before } = require("node:test");
 const assert = require("node:assert/strict");
 const { execFileSync } = require("node:child_process");
 const fs = require("node:fs");
 const os = require("node:os");
 const path = require("node:path");
-const { newPage, startBrowser } = require("../view/browser.js");
+const { newPage, startBrowser, startFirefox, writeText } = require("../view/browser.js");
 
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), "polynya-page-"));
 const source = path.resolve(__dirname, "../..");
 let browser = null;
-before(async () => { browser = await startBrowser(); });
+const isFirefox = process.env.BROWSER === "firefox";
+before(async () => { browser = await (isFirefox ? startFirefox() : startBrowser()); });
 after(async () => {
   await browser.close();
   fs.rmSync(folder, { recursive: true, force: true });
@@ -23,8 +25,8 @@ const inPhase = (page, ...phases) =>
   page.waitForFunction((all) => all.includes(document.body.dataset.phase), phases, { timeout: 60000 });
 
 /** Opens the page, in which nothing may go wrong. `link` is what follows its address. */
-async function openPage({ link = "", ...options } = {}) {
-  const page = await newPage(browser, { viewport: { width: 1440, height: 900 }, acceptDownloads: true, ...options });
+async function openPage({ link = "", by = browser, ...options } = {}) {
+  const page = await newPage(by, { viewport: { width: 1440, height: 900 }, acceptDownloads: true, ...options });
   await page.goto(`file://${process.env.PAGE}${link}`);
   await inPhase(page, "ready", "refused");
   return page;
@@ -34,7 +36,7 @@ const text = (page) => page.evaluate(() => window.polynyaPage.page.text);
 const messageOf = (page) => page.locator("#message span").textContent();
 const setText = async (page, words) => {
   await page.click("#tab-text");
-  await page.fill("#text", words);
+  await writeText(page, words);
   await page.evaluate(() => { document.body.dataset.phase = "waiting"; });
   await inPhase(page, "ready", "refused");
 };
@@ -61,7 +63,26 @@ async function drag(page, from, to) {
   await inPhase(page, "ready", "refused");
 }
 
+/** What a link would have saved, in Firefox. */
+async function offeredBy(page, click) {
+  await page.evaluate(() => {
+    window.offered = new Promise((done) => {
+      HTMLAnchorElement.prototype.click = async function offer() {
+        const bytes = new Uint8Array(await (await fetch(this.href)).arrayBuffer());
+        done({ name: this.download, base64: btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join("")) });
+      };
+    });
+  });
+  await click();
+  return page.evaluate(() => window.offered);
+}
+
 async function savedBy(page, click) {
+  if (isFirefox) {
+    const { name, base64 } = await offeredBy(page, click);
+    fs.writeFileSync(path.join(folder, name), Buffer.from(base64, "base64"));
+    return path.join(folder, name);
+  }
   const [download] = await Promise.all([page.waitForEvent("download"), click()]);
   const file = path.join(folder, download.suggestedFilename());
   await download.saveAs(file);
@@ -122,7 +143,7 @@ test("ships, waypoints and floes are moved by mouse, ships are turned, and undon
       return [x + Math.max(...info.ships[0].waterline_m.map((p) => p[0])) + 26 / scale, y];
     }
   });
-  await drag(page, await onScreen(page, bow), await onScreen(page, [-90, 160]));
+  await drag(page, await onScreen(page, bow), await onScreen(page, [-90, 110]));
   assert.ok(Math.abs((await scene()).ships[0].heading_deg - 90) < 5);
   await drag(page, await onScreen(page, [300, 40]), await onScreen(page, [250, -30]));
   const [waypoint] = (await scene()).ships[0].pilot.route.waypoints;
@@ -154,8 +175,8 @@ test("the form changes the text where the value stands, and comments stay", asyn
   assert.deepEqual(page.errors, []);
 });
 
-test("a ship is steered by keys and by touch, and its rudder follows", async () => {
-  const page = await openPage({ hasTouch: true });
+test(`a ship is steered by keys and by ${isFirefox ? "mouse" : "touch"}, and its rudder follows`, async () => {
+  const page = await openPage({ hasTouch: !isFirefox });
   await setText(page, small.replace("\"until_s\": 5", "\"until_s\": 500"));
   await page.selectOption("#rate", "10");
   await page.click("#run");
@@ -163,7 +184,8 @@ test("a ship is steered by keys and by touch, and its rudder follows", async () 
   for (let k = 0; k < 4; ++k) await page.keyboard.press("ArrowLeft");
   await page.waitForFunction(() => window.polynyaPage.page.run.motions.ship(0)[7] > 0.2);
   const slider = await page.locator("#lever").boundingBox();
-  await page.touchscreen.tap(slider.x + 2, slider.y + slider.height / 2);
+  const end = [slider.x + 2, slider.y + slider.height / 2];
+  await (isFirefox ? page.mouse.click(...end) : page.touchscreen.tap(...end));
   await page.waitForFunction(() => window.polynyaPage.page.run.motions.ship(0)[6] < 0);
   assert.equal(await page.locator("#take-helm").getAttribute("aria-pressed"), "true");
   assert.deepEqual(page.errors, []);
@@ -211,8 +233,12 @@ test("problems stand at their lines, and a hint does not hinder", async () => {
 
 for (const width of [360, 768, 1440]) {
   for (const colorScheme of ["light", "dark"]) {
-    test(`at ${width} px, ${colorScheme}, all controls are on the page and have names`, async () => {
-      const page = await openPage({ viewport: { width, height: 800 }, colorScheme });
+    test(`at ${width} px, ${colorScheme}, all controls are on the page and have names`, async (t) => {
+      const own = isFirefox ? await startFirefox(colorScheme) : null; // its colour scheme is a setting of the program
+      t.after(() => own?.close());
+      const page = await openPage({ by: own ?? browser, viewport: { width, height: 800 }, colorScheme });
+      const isDark = await page.evaluate(() => matchMedia("(prefers-color-scheme: dark)").matches);
+      assert.equal(isDark, colorScheme === "dark");
       const wrong = await page.evaluate(() => {
         const shown = [...document.querySelectorAll("button, select, input, textarea, summary")].filter((control) =>
           control.checkVisibility() && !control.closest("#study-page"));
@@ -230,7 +256,8 @@ for (const width of [360, 768, 1440]) {
         await page.selectOption("#rate", "100");
         await page.click("#run");
         await page.waitForTimeout(1500);
-        await page.screenshot({ path: path.join(process.env.SHOTS, `page-${width}-${colorScheme}.png`) });
+        const name = `${process.env.BROWSER ?? "chromium"}-${width}-${colorScheme}.png`;
+        await page.screenshot({ path: path.join(process.env.SHOTS, name) });
       }
       assert.deepEqual(page.errors, []);
     });

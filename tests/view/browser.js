@@ -1,6 +1,6 @@
-// Debian's Chromium, driven by playwright-core, which is found by NODE_PATH.
+// Debian's Chromium and Firefox, driven by playwright-core, which is found by NODE_PATH.
 "use strict";
-const { chromium } = require("playwright-core");
+const { chromium, firefox } = require("playwright-core");
 
 const flags = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
   "--disable-component-update", "--disable-sync"];
@@ -8,6 +8,12 @@ const flags = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-ru
 /** Starts it with an empty profile of its own. */
 exports.startBrowser = () =>
   chromium.launch({ executablePath: process.env.CHROMIUM || "/usr/bin/chromium", headless: true, args: flags });
+
+/** Starts Firefox in the same way, by WebDriver BiDi. That has no command for the colour scheme: it is a setting. */
+exports.startFirefox = (colorScheme = "light") =>
+  firefox.launch({ executablePath: process.env.FIREFOX || "/usr/bin/firefox-esr", channel: "moz-firefox",
+    headless: true, firefoxUserPrefs: { "layout.css.prefers-color-scheme.content-override":
+      ["dark", "light"].indexOf(colorScheme) } });
 
 /** An empty page in a context of its own; its errors and requests are collected. */
 exports.newPage = async (browser, options) => {
@@ -19,6 +25,13 @@ exports.newPage = async (browser, options) => {
   page.on("request", (request) => page.requests.push(request.url()));
   return page;
 };
+
+/** Writes into the field for the scene's text. In Firefox the driver's own `fill` sometimes never returns. */
+exports.writeText = (page, words) => (page.context().browser().browserType().name() === "firefox"
+  ? page.locator("#text").evaluate((area, value) => {
+    area.value = value;
+    area.dispatchEvent(new Event("input", { bubbles: true }));
+  }, words) : page.fill("#text", words));
 
 /** Opens a page written by `polynya view`. */
 exports.openPage = async (browser, file, options = {}) => {
