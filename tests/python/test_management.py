@@ -16,6 +16,7 @@ from polynya.figures.page import Page
 from polynya.management import cautions, cover, encounters, measures, ranking, study, study_figure
 from polynya.management.drift import by_rows, free_drift, tide
 from polynya.management.gates import Gates, Passage, gates_of, managed_width, passages
+from polynya.results.run import Frame
 from polynya.study.folder import PLAN, RESULT, open_study
 from polynya.study.plan import write_cases
 
@@ -154,6 +155,7 @@ class Broken:
             return numpy.column_stack((start - 10 * time, numpy.zeros((len(ids), 5))))
 
     motions = motions()
+    frame = staticmethod(lambda time: Frame(Broken, time))
 
 
 def test_a_floe_that_broke_passes_as_its_pieces_and_once():

@@ -9,9 +9,9 @@ import numpy
 from scipy import stats
 
 from polynya import extremes
+from polynya.readable import in_hours
 
 from . import bursts
-from .units import in_hours
 
 REFUTED = 0.05  #: a fit with a smaller p value is refuted
 #: Largest shape of a tail that gives return values [-]. From a shape of 0.5 on, the peaks of the fitted tail have an

@@ -3,19 +3,12 @@ import math
 import textwrap
 
 from polynya import extremes
+from polynya.readable import force, in_hours as hours, plain
 
 from . import estimate
-from .units import in_hours as hours, plain
 
 WIDEST = 118  #: number of columns of a printed reason; longer ones continue on the next line
 MOST_KINDS = 12  #: largest number of kinds of runs whose answers are printed
-
-
-def force(value):
-    for factor, name in ((1e6, "MN"), (1e3, "kN")):
-        if abs(value) >= factor:
-            return f"{value / factor:.3g} {name}"
-    return f"{value:.3g} N"
 
 
 def shape(value):

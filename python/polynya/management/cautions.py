@@ -6,6 +6,8 @@ import dataclasses
 import math
 from typing import Optional
 
+from ..readable import force
+
 LEAST_FIELDS = 5  #: intervals over fewer fields of ice are not to be trusted
 MOST_LISTED = 4  #: largest number of conditions that a sentence lists
 PREFIX = "management_"
@@ -48,11 +50,6 @@ def without_ice(condition, pattern):
     of = [values_of(condition, name, pattern) for name in ("floes_upstream", *ARRIVALS)]
     fields = [field for field in of[0] if all(field in values for values in of)]
     return sum(all(values[field] == 0 for values in of) for field in fields), len(fields)
-
-
-def force(value):
-    factor, unit = next(((f, u) for f, u in ((1e6, "MN"), (1e3, "kN")) if value >= f), (1, "N"))
-    return f"{value / factor:.3g} {unit}"
 
 
 def counted(condition, number, fields):

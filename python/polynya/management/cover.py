@@ -4,7 +4,6 @@ from __future__ import annotations
 import numpy
 
 from ..results.motions import placed
-from ..results.run import body_poses
 from .gates import axes_over_time
 
 
@@ -48,13 +47,9 @@ def covered(stretches, half):
     return total
 
 
-def covers_at(run, outlines, time, axis, origin, gates):
+def covers_at(frame, outlines, axis, origin, gates):
     """Fractions of the length of the upstream gate and of the gate at the body that lie under floating ice."""
-    births = run.births
-    floats = (births["born_s"] <= time) & (time < births["died_s"]) & (time < births["went_under_s"])
-    ids = numpy.flatnonzero(floats)
-    poses = body_poses(run.motions.floes_at(ids, time), run.centroids[ids])
-    ids, poses = ids[~numpy.isnan(poses[:, 0])], poses[~numpy.isnan(poses[:, 0])]
+    ids, poses = frame.ids[~frame.is_under], frame.poses[~frame.is_under]
     along, reach = (poses[:, :2] - origin) @ axis, outlines.reach_of(ids)
     across = numpy.array([-axis[1], axis[0]])
     found = []
@@ -79,9 +74,8 @@ def covers(run, gates):
     rows = numpy.zeros((len(run.times), 2))
     for k, (time, axis) in enumerate(zip(run.times, upstream)):
         if time > gates.start:
-            moved = run.motions.ships_at(time)
-            origin = (moved if len(moved) else run.first_motions)[number, :2]
-            rows[k] = covers_at(run, outlines, time, axis, origin, gates)
+            frame = run.frame(time)
+            rows[k] = covers_at(frame, outlines, axis, frame.ship_motions[number, :2], gates)
     found = []
     for shares in rows.T:
         with_ice = numpy.flatnonzero(shares > 0)

@@ -129,12 +129,12 @@ def encounters_of(run, body):
         return None
     own, hits, load, distance = loads_of_hulls(run, body), 0, 0.0, math.inf
     for ship in ships:
-        has_met, nearest = met(run, body, ship), closest(run, body, ship)
+        nearest = closest(run, body, ship)
+        is_hit = nearest == 0 or met(run, body, ship)
         of_ship = loads_of_hulls(run, ship)
         count = min(len(own), len(of_ship))
-        touches = (own[:count] > 0) & (of_ship[:count] > 0) & (has_met or nearest == 0)
+        touches = (own[:count] > 0) & (of_ship[:count] > 0) & is_hit
         begins = int(numpy.count_nonzero(touches & ~numpy.concatenate([[False], touches[:-1]])))
-        is_hit = has_met or nearest == 0
         hits += max(begins, 1) if is_hit else 0
         load = max(load, float(own[:count][touches].max(initial=0)))
         distance = min(distance, 0.0 if is_hit else nearest)
@@ -149,8 +149,7 @@ def beyond_gate(run, gates):
     number, seconds = run.ship_names.index(gates.body), 0.0
     numbers = [run.ship_names.index(name) for name in other_ships(run, gates.body)]
     for time, step, axis in zip(run.times, steps, upstream):
-        moved = run.motions.ships_at(time)
-        moved = moved if len(moved) else run.first_motions
+        moved = run.frame(time).ship_motions
         for other in numbers:
             off = placed(run.waterlines[run.ship_names[other]], *moved[other, :3]) - moved[number, :2]
             is_beyond = (off @ axis > gates.upstream) & (numpy.abs(cross(axis, off)) <= 0.5 * gates.width)

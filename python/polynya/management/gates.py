@@ -125,8 +125,7 @@ def places_over_time(run, body):
     for time, axis in zip(run.times, upstream):
         floats = (time < births["died_s"]) & (time < births["went_under_s"])
         ids = numpy.flatnonzero((births["born_s"] <= time) & floats)
-        moved = run.motions.ships_at(time)
-        origin = (moved if len(moved) else run.first_motions)[number, :2]
+        origin = run.frame(time).ship_motions[number, :2]
         off = run.motions.floes_at(ids, time)[:, :2] - origin
         yield ids, numpy.column_stack((off @ axis, axis[0] * off[:, 1] - axis[1] * off[:, 0]))
 

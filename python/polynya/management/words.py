@@ -2,6 +2,7 @@
 import csv
 
 from ..files import writing
+from ..readable import plain
 from . import cautions, ranking
 from .study import MEASURES, UNMANAGED
 
@@ -14,15 +15,9 @@ def unit_of(measure, most):
     return next(((factor, name) for factor, name in choices if most >= factor), choices[-1])
 
 
-def three(value):
-    """A number with three digits, without an exponent."""
-    rounded = float(f"{value:.3g}")
-    return f"{rounded:.0f}" if abs(rounded) >= 100 else f"{rounded:.6g}"
-
-
 def interval(mean, factor=1.0):
     half = "" if mean.half is None else f" ± {float(f'{mean.half / factor:.2g}'):.6g}"
-    return f"{three(mean.value / factor)}{half}"
+    return f"{plain(mean.value / factor)}{half}"
 
 
 def left(place):
@@ -40,7 +35,7 @@ def lost(condition, name):
     if not found:
         return ""
     areas, shares = zip(*found.values())
-    return f"{three(sum(areas) / len(areas))} m² ({100 * sum(shares) / len(shares):.2g} %)"
+    return f"{plain(sum(areas) / len(areas))} m² ({100 * sum(shares) / len(shares):.2g} %)"
 
 
 def listed(names):
@@ -107,7 +102,7 @@ def lines_of_ships(found):
     for condition in found.conditions:
         hits = {name: cautions.hits_of(condition, name) for name in found.patterns}
         rows += [[condition.name, name, f"{of.hit} of {of.fields}", cautions.force(of.load) if of.hit else "-",
-                  f"{three(of.closest)} m"] for name, of in hits.items() if of]
+                  f"{plain(of.closest)} m"] for name, of in hits.items() if of]
     if len(rows) > 1:
         yield ""
         yield f"other ships and {found.body}: hits in the whole run, distance between the waterlines"

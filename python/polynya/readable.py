@@ -1,4 +1,4 @@
-"""Numbers and durations as people read them."""
+"""Numbers, forces and durations as people read them."""
 
 
 def plain(value):
@@ -13,3 +13,11 @@ def in_hours(value):
         if value < most:
             return f"{plain(value * unit)} {name}"
     return f"{plain(value)} h"
+
+
+def force(value):
+    """A force given in N, in a suitable unit: 850 N, 12.5 kN, 3.28 MN."""
+    for factor, name in ((1e6, "MN"), (1e3, "kN")):
+        if abs(value) >= factor:
+            return f"{value / factor:.3g} {name}"
+    return f"{value:.3g} N"
