@@ -1,6 +1,6 @@
 # Packages that consist of headers alone, for builds for other systems: they are taken from where Debian installs them.
-# The folder of all of Debian's headers would bring those of the C library of this machine too, so the build's folder
-# `headers` has links to these packages alone.
+# The build's folder `headers` has links to these packages alone, because the folder of all of Debian's headers also has
+# the headers of this machine's C library.
 set(headers ${PROJECT_BINARY_DIR}/headers)
 file(MAKE_DIRECTORY ${headers})
 foreach(package boost CGAL fmt tl nlohmann)

@@ -100,7 +100,8 @@ function makeLiveRun(words) {
   const forces = makeLiveForces(words.hulls, words.force_columns);
   const run = {
     words, floes, time: 0, counts: { bends: 0, splits: 0, ground: 0 }, events: [], tracks: ships.map(() => []),
-    // Which quantities and causes a run has is known at its end only: it offers all quantities, and no stacked causes.
+    // Only at its end it is known which optional quantities and which causes a run has. So the plot of a running run
+    // offers all quantities and no stacked causes.
     info: { ships, patterns: [], force_columns: words.force_columns.map((one) => ({ ...one, is_optional: false })),
       force_causes: [], forces_interval_s: words.forces_interval_s,
       splits_by_j_over_tau_c: words.splits_by_j_over_tau_c },

@@ -1,6 +1,6 @@
 #include "io/text/output_file.hpp"
 
-// A co-simulation unit writes no files. These functions take the place of those that use POSIX, and fail.
+// A co-simulation unit writes no files. These functions replace the ones that use POSIX, and fail.
 
 namespace polynya::io {
 namespace {
