@@ -267,16 +267,18 @@ int refuse_damaged(const fs::path& folder, const io::FilesCheck& files) {
 }
 
 /// Reports that a run has finished, and completes its folder: if the command was killed after the end of the run, there
-/// may be too many checkpoints or missing pictures.
+/// may be too many checkpoints, missing pictures, or checksums of pictures that were not written to their end.
 int report_finished(const fs::path& folder, double end, bool no_map) {
   if (const auto files = io::check_files(folder); !files.damaged.empty()) return refuse_damaged(folder, files);
   print_err("polynya: {}: the run has finished at {:.6g} s; to extend it, give --until with a later time\n",
             folder.string(), end);
   const bool is_drawn = fs::exists(folder / io::run_file::kFinalSvg) && fs::exists(folder / io::run_file::kFinalPng);
-  if (is_drawn && io::checkpoints_in(folder).size() <= 1) return kDone;
+  const fs::path remains = io::temporary_name(folder / io::run_file::kChecksums);
+  if (is_drawn && io::checkpoints_in(folder).size() <= 1 && !fs::exists(fs::symlink_status(remains))) return kDone;
   const auto lock = io::RunLock::take(folder);
   if (!lock) return kDone;                               // another polynya is completing the folder
   static_cast<void>(io::remove_checkpoints(folder, 1));  // if this fails, a later command tries again
+  static_cast<void>(io::remove_file(remains));
   if (is_drawn || no_map) return kDone;
   const auto map = draw_map(folder);
   return map ? kDone : fail(kInputOutput, map.error());
@@ -312,6 +314,7 @@ int resume(const ResumeOptions& options) {
     return scene ? repeat_failure(*scene, folder) : scene.error();
   }
   const auto finished = [&]() -> std::optional<double> {
+    if (io::lacks_checksums(folder)) return std::nullopt;  // its end is done again
     const auto end = io::finished_run(folder);
     return end && options.until.value_or(0) <= end->time ? std::optional(end->time) : std::nullopt;
   };

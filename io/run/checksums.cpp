@@ -84,6 +84,10 @@ Result<Checksum> checksum_of(const fs::path& file, std::uint64_t most) {
   return sum;
 }
 
+Result<> announce_checksums(const fs::path& folder) {
+  return write_whole_file(temporary_name(folder / run_file::kChecksums), "", Durability::kSynced);
+}
+
 Result<> write_checksums(const fs::path& folder, const Checksums& checksums) {
   std::string text;
   for (const auto& [name, sum] : checksums) text += line_of(name, sum);
@@ -110,6 +114,11 @@ Result<> remove_checksums(const fs::path& folder) {
   if (!fs::exists(fs::symlink_status(file))) return {};
   const auto removed = remove_file(file);
   return removed ? sync_folder(folder) : removed;
+}
+
+bool lacks_checksums(const fs::path& folder) {
+  const fs::path file = folder / run_file::kChecksums;
+  return fs::exists(fs::symlink_status(temporary_name(file))) && !fs::exists(fs::symlink_status(file));
 }
 
 FilesCheck check_files(const fs::path& folder) {

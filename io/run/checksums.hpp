@@ -27,6 +27,10 @@ using Checksums = std::map<std::string, Checksum>;  ///< by file name, relative 
 Result<Checksum> checksum_of(const std::filesystem::path& file,
                              std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
+/// Writes an empty file under the temporary name of checksums.txt, before summary.json says that the run has finished.
+/// It is there until write_checksums() has given it its name.
+Result<> announce_checksums(const std::filesystem::path& folder);
+
 /// Writes the checksums of a run that has finished.
 Result<> write_checksums(const std::filesystem::path& folder, const Checksums& checksums);
 
@@ -35,6 +39,9 @@ Result<> add_checksums(const std::filesystem::path& folder, const std::vector<st
 
 /// Removes checksums.txt. Every function that changes a finished run calls this first.
 Result<> remove_checksums(const std::filesystem::path& folder);
+
+/// Returns true if checksums.txt was announced and is missing: the program was killed at the end of the run.
+bool lacks_checksums(const std::filesystem::path& folder);
 
 /// Result of comparing the files of a run with their checksums.
 struct FilesCheck {

@@ -93,9 +93,7 @@ Result<> make_folder(const fs::path& folder) {
 
 /// Removes a file and the temporary file that a crash may have left.
 Result<> remove_with_part(const fs::path& path) {
-  fs::path part = path;
-  part += ".part";
-  const auto removed = remove_file(part);
+  const auto removed = remove_file(temporary_name(path));
   return removed ? remove_file(path) : removed;
 }
 

@@ -329,6 +329,7 @@ Result<> RunWriter::finish(const RunSummary& summary, const simulation::Simulati
   // The summary of a finished run is written last, when the disk has stored all other files. For a run that was stopped
   // it is written first, because it matters more than the ice if the disk is nearly full.
   if (summary.finished) write_ice();
+  if (summary.finished && written) written = announce_checksums(folder());
   if (written || !summary.finished)
     write(run_file::kSummary, [&](const WritePart& part) { part(to_json_text(summary, *scene_)); });
   if (!summary.finished) write_ice();

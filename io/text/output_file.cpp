@@ -163,7 +163,7 @@ namespace {
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::filesystem::path& path)
-      : path_(path), temporary_(path.string() + ".part"), descriptor_(open_new(temporary_.c_str())) {
+      : path_(path), temporary_(temporary_name(path)), descriptor_(open_new(temporary_.c_str())) {
     if (descriptor_ < 0) error_ = errno;
   }
   TemporaryFile(const TemporaryFile&) = delete;

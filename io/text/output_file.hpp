@@ -95,6 +95,12 @@ Result<> sync_folder(const std::filesystem::path& folder);
 /// Removes a file, a symbolic link or an empty folder. It is no error if there is none.
 Result<> remove_file(const std::filesystem::path& path);
 
+/// Returns the name under which write_whole_file() writes a file before it is renamed. If the program is killed
+/// meanwhile, a file of that name remains.
+inline std::filesystem::path temporary_name(std::filesystem::path path) {
+  return path += ".part";
+}
+
 /// Writes a file of a run folder in one step: under a temporary name beside it, which is then renamed, so that a reader
 /// finds either the old file or the new one. A symbolic link of that name is replaced, not followed, because a run
 /// folder may come from somebody else. A pipe, a device or a folder is refused and stays.

@@ -74,6 +74,26 @@ TEST_F(Resume, GivesTheBytesOfTheRunNobodyInterrupted) {
   EXPECT_EQ(difference(), "");
 }
 
+/// A kill after summary.json and before checksums.txt leaves the latter's beginning under another name. The end of the
+/// run is then done again. Beside checksums that were there before (a picture was added) the remains are removed.
+TEST_F(Resume, ARunThatWasKilledBeforeItsChecksumsWereWrittenGetsThem) {
+  write_file(folder_ / "scene.json", crash_scene("100"));
+  ASSERT_EQ(polynya("run scene.json --out whole", start_).code, 0);
+  const fs::path run = folder_ / "run", sums = run / io::run_file::kChecksums, remains = io::temporary_name(sums);
+  for (const auto& [has_checksums, written] : {std::pair{false, 0}, {false, 40}, {true, 40}}) {
+    SCOPED_TRACE(testing::Message() << has_checksums << ", " << written << " bytes");
+    fs::remove_all(run);
+    fs::copy(folder_ / "whole", run, fs::copy_options::recursive);
+    write_file(remains, read_file(sums).substr(0, written));
+    if (!has_checksums) fs::remove(sums);
+    EXPECT_EQ(expect_code(0, resume()).err.find("has finished") != std::string::npos, has_checksums);
+    EXPECT_FALSE(fs::exists(remains));
+    EXPECT_TRUE(fs::exists(sums));
+    EXPECT_EQ(difference(), "");
+    EXPECT_HAS(expect_code(0, polynya("inspect run --check", start_)).out, "sound");
+  }
+}
+
 TEST_F(Resume, WhatIsDamagedMissingOrOfAnotherRunIsRefused) {
   interrupt();
   const std::string newest = checkpoints_[0].filename(), older = checkpoints_[1].filename();

@@ -49,6 +49,8 @@ def compared_files(run):
 def difference(expected, run):
     """Returns the names of the files that differ or are in one of two runs only."""
     one, other = compared_files(expected), compared_files(run)
+    if not (run / "checksums.txt").exists():
+        return ["checksums.txt"]  # a finished run has it, whatever it says of the files that are not compared
     return sorted(name for name in one.keys() | other.keys()
                   if name not in one or name not in other or one[name].read_bytes() != other[name].read_bytes())
 
