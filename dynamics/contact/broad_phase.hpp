@@ -23,8 +23,8 @@ struct OverlapMemory {
   BodyIndex other = 0;
   double paid_area = 0;  ///< sum of the paid areas [m²]
   double area = 0;       ///< sum of the areas [m²]
-  CrushedIce crushed;    ///< largest one; its pose is the other body's frame in the frame of the broken body
-  Booked booked;
+  CrushedIce crushed{};  ///< largest one; its pose is the other body's frame in the frame of the broken body
+  Booked booked{};
 };
 
 /// A body that a breaking body does not touch; neither is inside the other.

@@ -58,7 +58,7 @@ bool ContactTracker::continues_one(std::span<Contact> contacts, std::span<const 
   const Patch patch = patch_of(contacts[0], manifolds[0], bodies);
   const double reach = reach_of(records_[0], patch);
   if (squared_length(patch.middle - records_[0].last_point_in_b) > reach * reach) return false;
-  advance(records_[0], contacts[0], patch, bodies);
+  advance(records_[0], contacts[0], patch);
   return true;
 }
 
@@ -72,7 +72,7 @@ void ContactTracker::update_several(std::span<Contact> contacts, std::span<const
   }
   join_left_over(contacts, manifolds, bodies);
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    advance(updated_[i], contacts[i], patch_of(contacts[i], manifolds[i], bodies), bodies);
+    advance(updated_[i], contacts[i], patch_of(contacts[i], manifolds[i], bodies));
   std::swap(records_, updated_);
 }
 
@@ -164,8 +164,7 @@ void ContactTracker::end(const Bodies& bodies) {
   records_.clear();
 }
 
-void ContactTracker::advance(PersistentContact& record, const Contact& c, const Patch& patch,
-                             const Bodies& bodies) const {
+void ContactTracker::advance(PersistentContact& record, const Contact& c, const Patch& patch) const {
   record.last_point_in_b = patch.middle;
   record.reach = patch.reach;
   record.age += dt_;

@@ -56,7 +56,7 @@ class ContactTracker {
   void join_left_over(std::span<Contact> contacts, std::span<const geometry::ContactManifold> manifolds,
                       const Bodies& bodies);
   void note_parted(const PersistentContact& record, const Bodies& bodies);
-  void advance(PersistentContact& record, const Contact& contact, const Patch& patch, const Bodies& bodies) const;
+  void advance(PersistentContact& record, const Contact& contact, const Patch& patch) const;
 
   BodyIndex a_, b_;
   std::vector<PersistentContact>& records_;

@@ -12,11 +12,11 @@ namespace polynya::io {
 
 /// A floe file that a scene names, after it was read.
 struct FloeFileText {
-  std::string shown;               ///< its name in messages
-  std::string text;                ///< GeoJSON, NDJSON or WKT
-  bool is_foreign = false;         ///< true if GDAL wrote the text from another format
-  std::string system;              ///< coordinate system of a foreign file, as WKT; empty: it has none
-  std::vector<std::string> notes;  ///< messages about what was selected in a foreign file
+  std::string shown;                 ///< its name in messages
+  std::string text;                  ///< GeoJSON, NDJSON or WKT
+  bool is_foreign = false;           ///< true if GDAL wrote the text from another format
+  std::string system{};              ///< coordinate system of a foreign file, as WKT; empty: it has none
+  std::vector<std::string> notes{};  ///< messages about what was selected in a foreign file
 };
 
 /// Reason why a floe file cannot be read.

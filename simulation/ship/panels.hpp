@@ -17,7 +17,7 @@ struct StepData;
 
 /// Loads of the ice on a panel of a hull over a recording interval, in the hull's frame.
 struct PanelLoads {
-  dynamics::Planar impulse;       ///< impulse on the panel [N s, N m s]
+  dynamics::Planar impulse{};     ///< impulse on the panel [N s, N m s]
   double normal = 0;              ///< impulse along the normals of its contacts [N s]
   double largest = 0;             ///< largest force along the normals in a single step [N]
   double loaded = 0;              ///< time during which ice pressed on the panel [s]

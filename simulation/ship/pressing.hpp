@@ -28,9 +28,9 @@ struct PressedContact {
 /// A floe, and the contacts of one other body that presses it, with the forces of the step.
 struct PressedFloe {
   BodyIndex floe = 0;
-  std::vector<PressedContact> contacts;
-  std::vector<fracture::Push> pushes;
-  std::vector<CrackMouth> mouths;
+  std::vector<PressedContact> contacts{};
+  std::vector<fracture::Push> pushes{};
+  std::vector<CrackMouth> mouths{};
   double most = 0;  ///< largest force with which the pushes can open a crack [N]
 };
 
