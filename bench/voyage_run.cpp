@@ -156,7 +156,7 @@ simulation::Scene load(const std::string& file, const Edit& edit) {
 }
 
 void take_fine_step(simulation::Scene& scene) {
-  // With the impulse law, ticks are not divided, so the tick chosen for this law is the fine step.
+  // Ticks are not divided with the impulse law, so the tick chosen for this law is the fine step.
   const simulation::ContactLaw law = std::exchange(scene.contact.law, simulation::ContactLaw::kImpulse);
   scene.time.step = std::min(scene.time.step, simulation::default_tick(scene));
   scene.contact.law = law;

@@ -146,7 +146,7 @@ def shows(drawn, made):
     if SIZE.sub("", drawn) != SIZE.sub("", made):
         return False
     pairs = zip(SIZE.finditer(drawn), SIZE.finditer(made))
-    sizes = [(int((a[i] or "0").replace(" ", "")), int((b[i] or "0").replace(" ", ""))) for a, b in pairs for i in (1, 2)]
+    sizes = ([int((size[i] or "0").replace(" ", "")) for size in pair] for pair in pairs for i in (1, 2))
     return all(abs(old - new) <= 0.1 * new for old, new in sizes)
 
 

@@ -84,8 +84,8 @@ void show_progress(std::string_view text);
 /// kInputOutput.
 int close_streams(int code);
 
-/// From now on SIGINT, SIGTERM and SIGHUP only ask to stop; a second signal ends the program at once. Writing beyond a
-/// size limit or to a closed pipe is an error, not a signal.
+/// Makes SIGINT, SIGTERM and SIGHUP only ask to stop from now on; a second signal ends the program at once. Writing
+/// beyond a size limit or to a closed pipe is an error, not a signal.
 void watch_signals();
 
 /// Returns the signal that asked to stop, or 0.

@@ -17,8 +17,8 @@ namespace polynya::dynamics {
 /// ice and has moved on since. It is a band along the outline of the body, much thinner than it is deep along the
 /// contact's normal, so that the power law does not describe it. It grows by dS = w dξ, as every overlap does.
 ///
-/// By the law of crushing ice the narrow phase takes the mean thickness of a crescent as its depth, unless both bodies
-/// have prescribed motion; so only contacts of such bodies are crescents.
+/// Only contacts of two bodies with prescribed motion are crescents by the law of crushing ice: for all others the
+/// narrow phase takes the mean thickness of a crescent as its depth.
 bool is_crescent(double depth, double width, double area);
 inline bool is_crescent(const Contact& contact) {
   return is_crescent(contact.depth, contact.width, contact.area);

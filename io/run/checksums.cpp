@@ -66,7 +66,7 @@ std::string fault_of(const fs::path& folder, const std::string& name, const std:
 
 Result<Checksum> checksum_of(const fs::path& file, std::uint64_t most) {
   const auto refuse = [&](std::string_view reason) { return fail(fmt::format("{}: {}", file.string(), reason)); };
-  // With O_NONBLOCK a pipe is opened at once and then refused. Without it, open() would wait for a writer.
+  // O_NONBLOCK opens a pipe at once, so that it can be refused. Without it, open() would wait for a writer.
   const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat status {};
   if (descriptor < 0 || ::fstat(descriptor, &status) != 0) return refuse(std::strerror(errno));

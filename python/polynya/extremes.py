@@ -203,7 +203,7 @@ class Tail:
         if self.shape.value <= -0.45 or not self.reaches(period):
             return None
         level = self.level(period)
-        # With few peaks, the interval is wider than the information gives.
+        # The interval of few peaks is wider than the information gives.
         scale = level.half_width / self.spread_of_level(period, self.hours)
         most = half_width * level.value / scale
         low, high = math.log(period / FARTHEST), math.log(1e6 * period)

@@ -151,7 +151,7 @@ TEST_F(Resume, AKilledRunMayEndElsewhere) {
   EXPECT_EQ(difference(), "");
 }
 
-/// Also checks that the folder is complete and states that the run is not finished.
+/// The test also checks that the folder is complete and states that the run is not finished.
 TEST_F(Resume, ASignalStopsWithACheckpointAndNobodyElseMayWriteMeanwhile) {
   write_file(folder_ / "scene.json", crash_scene("100"));
   write_file(folder_ / "long.json", crash_scene("4500"));

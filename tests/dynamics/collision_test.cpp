@@ -391,7 +391,7 @@ std::vector<Contact> two_contacts(double first, double second) {
   return contacts;
 }
 
-/// Of the inherited paid overlap, each contact takes the share of its area. This holds wherever the contact is, also if
+/// Each contact takes the share of its area of the inherited paid overlap. This holds wherever the contact is, also if
 /// a part of the overlap no longer has a contact.
 TEST(Tracker, ContactsOfFragmentsTakeTheShareThatWasPaid) {
   const Bodies bodies = two_floes(0, 3);

@@ -185,7 +185,7 @@ TEST(CrushingShares, AFacetThatTheHullDrawsAwayFromTakesNoPart) {
 // ---- overlaps other than wedges, against closed forms
 
 TEST(CrushedOverlapArea, OfAStraightEdgeIsItsFlatForm) {
-  // With S = w ξ, A_c = w [ξ − ⟨ξ − h tan θ⟩] / sin θ, which is the area of the facet once it spans the thickness.
+  // If S = w ξ, A_c = w [ξ − ⟨ξ − h tan θ⟩] / sin θ, which is the area of the facet once it spans the thickness.
   for (const double angle : {0.01, 0.67, 1.2}) {
     for (double depth = 1e-4; depth < 30; depth *= 2.3) {
       const double reach = 0.5 * std::tan(angle);

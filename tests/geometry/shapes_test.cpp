@@ -116,7 +116,7 @@ TEST(FirstContact, OfTwoSquares) {
   EXPECT_TRUE(touch({3, 3}, {-0.5, -0.5})) << "corner on corner";
 }
 
-// Before the time of first contact the two do not overlap, and a little after it they do. If there is no contact, they
+// The two do not overlap before the time of first contact, and a little after it they do. If there is no contact, they
 // pass each other.
 TEST(FirstContact, IsWhereOverlapBegins) {
   scenery::Random random(7);

@@ -45,7 +45,7 @@ std::map<std::string, Golden> read_goldens() {
   return goldens;
 }
 
-/// With the default laws, no crack runs at a force larger than its criterion.
+/// No crack runs at a force larger than its criterion with the default laws.
 void expect_met_in_time(simulation::Simulation& simulation, const std::filesystem::path& scene) {
   if (simulation.scene().contact.law != simulation::ContactLaw::kCrush) return;
   if (simulation.scene().fracture.splitting != fracture::SplittingModel::kLefm) return;

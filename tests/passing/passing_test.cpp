@@ -234,7 +234,7 @@ int scene_count() {
   return given ? std::atoi(given) : 20;
 }
 
-/// With the crushing law no random scene ends with an overlap larger than the crushed ice.
+/// No random scene with the crushing law ends with an overlap larger than the crushed ice.
 TEST(Passing, NoRandomSceneEndsWithMoreOverlapThanWasCrushed) {
   std::int64_t ground = 0;
   for (int seed = 0; seed < scene_count(); ++seed) {

@@ -100,7 +100,7 @@ TEST(Contacts, OfAShipAddUpToItsLoadInTheStep) {
   EXPECT_TRUE(has_crushed);
 }
 
-/// Without drag, contacts are the only forces on a floe. The test checks Newton's second law for each floe and step.
+/// Contacts are the only forces on a floe without drag. The test checks Newton's second law for each floe and step.
 TEST(Contacts, BetweenFloesTooExplainHowEachFloeMoves) {
   Scene scene = pack(RecordedContacts::kAll);
   scene.fracture.breakable_size_factor = 1e6;

@@ -214,7 +214,7 @@ double time_of_compression(const Scene& scene) {
 }
 
 TEST(CrushingCollision, TakesMassToTheThirdOverSpeedToTheThirdAtAnInclinedHull) {
-  // With F = k ξ² the time of compression is proportional to (m / k v)^⅓.
+  // The time of compression is proportional to (m / k v)^⅓ if F = k ξ².
   const auto time = [](double speed, double density) {
     return time_of_compression(corner_into_bow(60 * kDegree, speed, density, 5e-4));
   };

@@ -233,7 +233,7 @@ TEST(Regression, IceWithoutMassOrInertiaIsNoFloe) {
   EXPECT_FALSE(can_be_floe({1, {}, -1e-20}));
 }
 
-/// With a weak criterion the halves of a floe used to split again in every step along the crack that they had just
+/// The halves of a floe with a weak criterion used to split again in every step along the crack that they had just
 /// left, and corners were cut off strip by strip. The ice on either side of a crack must not be a sliver.
 TEST(Regression, ACrackIsNotParedStripByStrip) {
   for (const auto model : {fracture::SplittingModel::kMichel, fracture::SplittingModel::kLefm}) {

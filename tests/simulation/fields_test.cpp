@@ -98,7 +98,7 @@ int expect_apart(const std::vector<Polygon>& floes, double gap) {
   return near;
 }
 
-/// Also checks that all floes are valid and in the region.
+/// Checks that the field is sound: all floes are valid, in the region and apart. Returns what expect_apart() returns.
 int expect_sound(const FloeField& field, const std::vector<Polygon>& floes, std::size_t most_corners) {
   const geometry::Box region = bounding_box(field.region);
   for (const Polygon& floe : floes) {

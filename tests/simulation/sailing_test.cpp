@@ -257,8 +257,8 @@ TEST(Sailing, TurningCirclesAreThoseOfShips) {
   expect_within(full.speed_kept, 0.45, 0.55);
 }
 
-/// With steady commands, lever ahead and any rudder angle, a ship neither goes astern nor is faster than straight ahead
-/// at full power.
+/// A ship under steady commands, lever ahead and any rudder angle, neither goes astern nor is faster than straight
+/// ahead at full power.
 TEST(Sailing, NoSteadyCommandMakesAShipGoAsternOrTooFast) {
   const RudderSettings single{.area = 0.018 * kLength * 6, .most = M_PI / 2};
   const RudderSettings large{.area = 0.07 * kLength * 6, .most = M_PI / 2};

@@ -360,7 +360,7 @@ TEST(Beams, AFreeFloeBreaksAtTheForceOfTheClosedForm) {
   }
 }
 
-/// Between a stem and two floes at rest, half of that force breaks the floe: M = F Λ/4.
+/// Half of that force breaks a floe between a stem and two floes at rest: M = F Λ/4.
 TEST(Beams, AFloeBetweenThreeBreaksAtHalfOfThat) {
   Build scene = across(steep_ship(0.3));
   for (const double y : {-12.0, 11.9}) scene.floe(fast(rectangle(0.01 + kWidth, y, 20, y + 0.1)));

@@ -57,7 +57,7 @@ io::Run run_with_floes(const std::string& name) {
   return run;
 }
 
-/// Of the five floes the first floats all the time, the second is under a hull from 5 s on, and the third has surfaced.
+/// The first of the five floes floats all the time, the second is under a hull from 5 s on, and the third has surfaced.
 io::Run run_with_ice_under_a_hull() {
   io::Run run = run_with_floes("level");
   run.scene.scene.ships[0].hull.draught = 6;

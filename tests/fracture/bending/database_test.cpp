@@ -183,7 +183,7 @@ TEST(DatabaseLookUp, NamesWhatIsOutside) {
   EXPECT_FALSE(database.look_up(groups).is_in_range());
 }
 
-// Below the least Froude number of the table, the water under a wedge acts as at rest. The answer is that of the
+// The water under a wedge acts as at rest below the least Froude number of the table. The answer is that of the
 // table's edge and counts as inside.
 TEST(DatabaseLookUp, RestIsInside) {
   const DatabaseAnswer slow = default_database().look_up({std::numbers::pi / 2, 0.05, 1e-3, 0});

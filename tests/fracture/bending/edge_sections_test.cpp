@@ -61,7 +61,7 @@ TEST(EdgeSections, OfANarrowWedgeAreTheFloatingBeams) {
   }
 }
 
-/// Without water and thrust, a section carries σ_f h² θ r / 6 (r − x̄). In a wedge far from the load, the first section
+/// A section without water and thrust carries σ_f h² θ r / 6 (r − x̄). In a wedge far from the load, the first section
 /// breaks.
 TEST(EdgeSections, BreakAtTheNeck) {
   EdgeOpenings openings = wedge_of(80);
@@ -86,13 +86,13 @@ TEST(EdgeSections, ThrustClosesWhatIsNear) {
     force = found.force;
     distance = found.distance;
   }
-  // To first order no section opens if the moment of the thrust's lever and pressure exceeds the bending moment of V
+  // No section opens, to first order, if the moment of the thrust's lever and pressure exceeds the bending moment of V
   // that the water allows: 6 · 0.87 l < 7 η l / l …
   EXPECT_TRUE(std::isinf(weakest_section(wedge_of(80), {l, l, 0.2, 60, 0.4}).force));
 }
 
-/// To second order the thrust sinks with the tip. Without thrust this changes nothing, and on a flank it changes
-/// little. A section that the thrust keeps closed to first order breaks.
+/// The thrust sinks with the tip: this is an effect of second order. Without thrust this changes nothing, and on a
+/// flank it changes little. A section that the thrust keeps closed to first order breaks.
 TEST(EdgeSections, SinkUnderTheirThrust) {
   const double l = 15;
   const auto force_of = [&](double thrust, double sinking) {

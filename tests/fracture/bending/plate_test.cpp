@@ -122,7 +122,7 @@ TEST(Plate, HalfPlaneTopStress) {
   const Peak patch = top_stress_peak(rest(kPi / 2, 0.05, settings), settings);
   EXPECT_NEAR(patch.value, 0.7269, 0.001);
   EXPECT_NEAR(patch.place, 0.862, 0.01);
-  // With refinement the deflection converges like the energy, and the stress follows.
+  // The deflection converges with refinement like the energy, and the stress follows.
   SolverSettings fine = settings;
   fine.radial_elements = 72;
   const StaticPlate reference = rest(kPi / 2, 0.05, fine);
