@@ -23,8 +23,8 @@ function eventActions({ run, state, view }, actions) {
       const next = count < 0 && state.time - times[at] > 1e-9 ? at + 1 + count : at + count;
       actions.goTo(times[Math.min(times.length - 1, Math.max(0, next))] ?? 0);
     },
-    /** Selects an event and moves to its time. If its place is outside of the map, or within 20 px of its edge, the map
-     * is centred on it. */
+    /** Selects an event, pauses and moves to its time. If its place is outside of the map, or within 20 px of its edge,
+     * the map is centred on it, unless it follows a ship. */
     goToEvent(index) {
       const event = events[index];
       if (!event) return;
@@ -38,8 +38,8 @@ function eventActions({ run, state, view }, actions) {
       }
       showEventCard(byId("event-card"), run, event);
     },
-    /** Index of the first marked event after a time [s], or with step < 0 of the last one before it; −1 if there is
-     * none. */
+    /** Index of the first event with a mark on the time axis (isMarked()) after a time [s], or with step < 0 of the
+     * last one before it; −1 if there is none. Two runs side by side use it. */
     eventFrom(time, step) {
       const isBeyond = (event) => isMarked(event) && (step > 0 ? event.t_s > time + 1e-9 : event.t_s < time - 1e-9);
       return step > 0 ? events.findIndex(isBeyond) : events.findLastIndex(isBeyond);
@@ -58,7 +58,8 @@ function eventActions({ run, state, view }, actions) {
   };
 }
 
-/** Actions that change the visible part of the map. */
+/** Actions that change the visible part of the map. While `isFitted` is true, the map shows the whole run again when
+ * the size of the window changes. */
 function mapActions(player, actions) {
   const { state, view, run: { info: { ships } } } = player;
   return {
@@ -132,7 +133,8 @@ function floeActions(player, actions) {
       state.marksDirty = true;
       player.cardIsStale = true;
     },
-    /** Selects a floe. If it does not exist at the present time, the player moves to a time at which it does. */
+    /** Selects a floe. If it does not exist at the present time, the player moves to its birth, or to the start of the
+     * page's range of time if it was born earlier. */
     visit(id) {
       if (run.floes.born[id] === Infinity) return showToast(`floe ${id} is not in this page: it is out of the area`);
       if (!places.isThere(id, state.time)) {
@@ -154,7 +156,8 @@ function floeActions(player, actions) {
       player.cardIsStale = true;
     },
     /** Selects the ship and the floe at a point of the screen, or deselects them if they were selected. Ice under a
-     * hull is selected together with its ship. */
+     * hull is selected together with its ship. A click where there is no ship leaves the ship selected, a click where
+     * there is no floe deselects the floe. For a scene that has not run, it also copies the coordinates. */
     click(px, py) {
       const at = view.toWorld(px, py);
       const [floe, ship] = [floeAt(run, places, ...at), shipAt(run, player.motions, ...at)];
@@ -194,6 +197,7 @@ function pageActions(player, actions) {
       else help.showModal();
     },
     sizesBy: (what) => player.sizePanel.countBy(what),
+    /** Switches the scale of loads in all plots between the largest value and a scale without spikes. */
     toggleFullScale() {
       player.plotPanel.setFull(!plot.isFull);
       player.plotPanel.showTools();

@@ -25,8 +25,9 @@ function makeCarrier({ drift, shear_per_s: shear, shear_direction_rad: direction
 }
 
 /** Returns true if a ship has moved by more than 1 m from the first frame to the last, relative to `carry`, which
- * carries points with the water, or leaves them in place for motion over ground. The layers
- * "channel" and "ice at the start" are on when the page opens only if a ship has. */
+ * carries points with the water, or leaves them in place for motion over ground. When the page opens, the layer
+ * "channel" is on only if a ship that is not moored has moved relative to the water, and the layer "ice at the start"
+ * only if one has moved over ground. */
 function hasGone(run, motions, ship, carry) {
   const { times } = run.frames;
   const last = times.length - 1;
@@ -36,7 +37,8 @@ function hasGone(run, motions, ship, carry) {
   return Math.hypot(x - bx, y - by) > 1;
 }
 
-/** Poses of a ship [x, y, heading, time] at all frames up to the present time, and at that time. */
+/** Poses of a ship [x, y, heading, time] at all frames before the present time, and at that time; none if the run has
+ * no frames. */
 function posesUpTo(run, motions, ship, time) {
   const { times } = run.frames;
   const poses = [];
@@ -67,8 +69,9 @@ function evenly(poses, spacing, carry, time) {
   return even;
 }
 
-/** Draws the band that hulls swept: the outlines along their tracks, painted over each other and carried with the
- * water. */
+/** Draws the band that hulls swept: the outlines along their tracks, carried with the water and painted over each
+ * other in an opaque colour. Two outlines are at most an eighth of the hull's length apart; with a larger spacing the
+ * edges of the band become jagged. */
 function drawSweptBand(context, view, run, motions, time, colours) {
   run.info.ships.forEach(({ waterline_m: waterline }, index) => {
     const spacing = hullBox(waterline).length / 8;
@@ -80,9 +83,11 @@ function drawSweptBand(context, view, run, motions, time, colours) {
   });
 }
 
-/** Stations that are a channel behind a ship, from the last measurement up to a time [s], carried with the water to
- * that time. (x, y) is the middle of the station on the track, (fx, fy) the direction of the track, `port` and
- * `starboard` the distances from the track to the ice, and `along` the distance along the track [m]. */
+/** Stations that are a channel behind a ship (`is_channel` in docs/channel.md), from the last measurement up to a time
+ * [s], carried with the water to that time. `channel_measured_s` are all instants of measurement, at most 200, also
+ * those without any station. (x, y) is the middle of the station on the track, (fx, fy) the direction of the track,
+ * `port` and `starboard` the distances from the track to the ice, `length` the length of the station along the track,
+ * `along` its distance along the track, and `beam` the beam of the hull [m]. */
 function stationsOf(run, ship, time) {
   const { columns: c, info } = run;
   const measured = c.channel_measured_s[lastAtMost(c.channel_measured_s, time)];

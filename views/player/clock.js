@@ -4,8 +4,9 @@
 const playRates = () => Array.from(byId("rate").options, ({ value }) => Number(value));
 
 /** Makes the clock of a page. `axis` are its first and last time [s]; `time` stays between them. `rate` is the speed of
- * playback as a multiple of real time; changeRate() moves it by `step` places in the list of the page. `onChange` is
- * called whenever the clock changes. */
+ * playback as a multiple of real time; changeRate() moves it by `step` places in the list of the page, and a rate that
+ * is not in the list counts as the place before the first. play(true) at the end starts again from the beginning.
+ * `onChange` is called whenever the clock changes. */
 function makeClock(axis, onChange) {
   const clock = {
     time: axis[0],
@@ -41,8 +42,9 @@ function makeClock(axis, onChange) {
 const clockActions = ({ goTo, goToEnd, play, togglePlay, setRate, changeRate }) =>
   ({ goTo, goToEnd, play, togglePlay, setRate, changeRate });
 
-/** Calls `draw` at each refresh of the screen. While the clock plays, it is advanced before, until its end. A refresh
- * advances it by at most 100 ms × `rate`, so that it does not jump after the page was hidden or drawing was slow. */
+/** Calls `draw` at each refresh of the screen, also if nothing has changed. While the clock plays, it is advanced
+ * before, until its end. A refresh advances it by at most 100 ms × `rate`, so that it does not jump after the page was
+ * hidden or drawing was slow. */
 function runClock(clock, axis, draw) {
   let last = performance.now();
   function tick(now) {

@@ -4,16 +4,17 @@
 // from under a hull.
 
 const breakages = { whole: 0, cut: 1, split: 2, bend: 3, cameUp: 4 };
-// A piece with at least this fraction of the area of the scene's floe counts as the cut floe, not as a piece broken off
-// [-]. A larger fraction shows more halves of split floes as pieces.
+// If the floe that breaks is whole or cut, a piece with at least this fraction of the area of the scene's floe counts
+// as the cut floe, not as a piece broken off [-]. A larger fraction shows more halves of split floes as pieces.
 const cutShare = 0.2;
 
 /**
  * Returns one of `breakages` for each floe. `whole`: it has not broken since the start of the scene. `cut`: it is the
- * remaining part of a floe of the scene, which is the largest piece of each bend, and every piece with a fifth of the
- * area. `split` and `bend`: any other piece, by the fracture that freed it, where everything but a split counts as
- * bending; the largest piece of a piece that broke off keeps its kind. `cameUp`: it surfaced from under a hull, or
- * broke from such a floe.
+ * remaining part of a floe of the scene, which is the largest piece of each bend, and every piece of a whole or cut
+ * floe with at least `cutShare` of the area of the scene's floe. `split` and `bend`: any other piece, by the fracture
+ * that freed it, where everything but a split counts as bending; the largest piece of a piece that broke off keeps its
+ * kind. `cameUp`: it surfaced from under a hull, or broke from such a floe. `breakOf` maps a floe to the index of the
+ * event that ended it, except for going under.
  */
 function breakagesOf({ floes, info, breakOf }) {
   const of = new Uint8Array(floes.count);
@@ -32,8 +33,10 @@ function breakagesOf({ floes, info, breakOf }) {
   return of;
 }
 
-// Each ramp goes from light to dark in even steps of lightness, and none has the lightness of the water, so that
-// colours can be told apart in greyscale and by colour-blind users. Marks use the Okabe–Ito palette.
+// The colours of the classes, in the order of the classes. Each ramp has even steps of lightness and none has the
+// lightness of the water, so that colours can be distinguished in greyscale and by colour-blind users. Ramps go from
+// light to dark, but sizes from dark to light. The last colour of `breakage`, of ice that surfaced, is outside of its
+// ramp. Marks use the Okabe–Ito palette.
 
 const ramps = {
   breakage: ["#ffffff", "#f6e3a8", "#dd9a45", "#8f4a1c", "#edc7dd"],
@@ -79,8 +82,9 @@ function extremesOf({ floes, frames }) {
 }
 
 /** Ways of colouring floes, in classes up to the extremes: the value of a floe, limits, colours, and words for the
- * legend. The classes of generations are fixed unless a lineage has more than 20 fractures. The legend leaves out the
- * classes for which isUsed() returns false. */
+ * legend. A value equal to a limit belongs to the class above it. Speeds are those at the present time. The classes of
+ * generations are fixed unless a lineage has more than 20 fractures. The legend leaves out the classes for which
+ * isUsed() returns false. */
 function makeColourings(run, places, most) {
   const { floes } = run;
   const classes = (edges) => [`below ${edges[0]}`,
@@ -102,7 +106,8 @@ function makeColourings(run, places, most) {
   };
 }
 
-/** Colours of the theme by their names in the style sheet (player.css). */
+/** Colours of the present theme by their names in the style sheet (player.css), without the leading "--". They must be
+ * read again when the theme changes. */
 function themeColours() {
   const style = getComputedStyle(document.documentElement);
   const rules = [...document.styleSheets].flatMap((sheet) => [...sheet.cssRules]);
@@ -110,7 +115,8 @@ function themeColours() {
   return Object.fromEntries(names.map((name) => [name.slice(2), style.getPropertyValue(name).trim()]));
 }
 
-// The legend below the map. It explains the colours, marks and arrows that are shown.
+// The legend below the map. It explains the colours, marks and arrows that are shown. Sizes are listed from the largest
+// to the smallest.
 
 function makeLegend(player) {
   const { run, state, colourings } = player;

@@ -1,7 +1,7 @@
 // Draws the ice on the map. Each floe is a path of the browser; floes that hardly move are kept as a picture.
 
 /** Returns a function that gives the outline of a floe as a path in its body frame, relative to its centroid [m]. An
- * outline is made when it is first needed. */
+ * outline is made when it is first needed and then kept. Holes run clockwise, so filling leaves them open. */
 function makeOutlines({ floes }) {
   const outlines = new Map();
   return (id) => {
@@ -20,8 +20,9 @@ function makeOutlines({ floes }) {
 }
 
 /** The floes that float at the present time (`living`, of which the first `count` are valid), those that are under
- * hulls or wait behind them (`under`), and their poses and velocities (`spin` is the angular one [rad/s]). A floe
- * `isAlive` while it floats. */
+ * hulls or wait behind them (`under`), and their poses and velocities (`spin` is the angular one [rad/s]). Poses of
+ * other floes are out of date. A floe `isAlive` while it floats. setTime() also sets the time of `motions`, for ships
+ * too. */
 function makePlaces(run, motions) {
   const { floes } = run;
   const column = () => new Float64Array(floes.count);
@@ -160,9 +161,10 @@ function makeStillIce(run, places, motions) {
     Object.assign(kept, { from: time, until, loose });
   }
 
-  /** Draws all floating ice at a time, by calls of `draw` for a target and ids. `look` is a text that identifies the
-   * view and the colours; a picture is discarded if it changes. A picture is made for the next `ahead` [s of the run].
-   * */
+  /** Draws all floating ice at a time. It calls `draw(context, ids)`, which draws these floes at their present places:
+   * the picture's floes once, the others over the picture each time. `look` is a text that identifies the view and the
+   * colours; a picture is discarded if it changes. A picture is made for the next `ahead` [s of the run]. A larger
+   * value makes pictures last longer, but leaves more floes outside of them. */
   return function drawAll(target, view, look, time, ahead, draw) {
     if (look !== kept.look) { // the view is changing, so that a picture could not be used twice
       Object.assign(kept, { look, until: -1 });

@@ -2,7 +2,7 @@
 
 // Contacts recorded at frames (contacts.csv) and their forces.
 
-/** Contacts recorded at a frame. */
+/** Contacts recorded at a frame. The force acts on `ship`, or on `floe` if `ship` is −1. `isCrushing` is 0 or 1. */
 function contactsOfFrame({ columns: c, frames }, frame) {
   const at = frames.times[frame];
   const contacts = [];
@@ -13,7 +13,7 @@ function contactsOfFrame({ columns: c, frames }, frame) {
   return contacts;
 }
 
-/** The force that one contact in twenty exceeds [N]; 0 if no contact presses. It sets the scale of arrows. */
+/** The force that one contact in twenty exceeds [N]; 0 if no contact presses. Its arrow is 40 px long (player.js). */
 function typicalForce({ columns: { contact_fx_N: fx, contact_fy_N: fy } }) {
   const sizes = Float64Array.from(fx, (x, row) => Math.hypot(x, fy[row])).filter((size) => size > 0).sort();
   return sizes[Math.floor(0.95 * (sizes.length - 1))] ?? 0;
@@ -118,7 +118,8 @@ function drawVelocities(context, view, run, places, motions, colours, perSpeed) 
 
 const arrowCell = 24; // side of the squares of which each has at most one arrow of a floe [px]
 
-/** Ids of the largest floe in each square of the screen, by centre, so that arrows do not overlap. */
+/** Ids of the largest floe in each square of the screen, by centre, so that arrows do not overlap. Squares are numbered
+ * in one integer, which is unique for up to a million of them across. */
 function largestPerCell(view, floes, places) {
   const cells = new Map();
   // Squares are fixed in the world, so that arrows do not flicker when the map moves.
@@ -133,8 +134,8 @@ function largestPerCell(view, floes, places) {
   return cells.values();
 }
 
-/** Draws the family of a floe: tints the pieces of the same floe of the scene, and outlines its ancestors and itself.
- * */
+/** Draws the family of a floe: tints the floating pieces of the same floe of the scene, and outlines its ancestors and
+ * the floe. A floe that does not float is dashed, at the place where its motion would carry it. */
 function drawLineage(context, view, run, places, id, time, colours) {
   const { floes } = run;
   if (!places.isAlive(id, time)) places.place(id);
@@ -164,7 +165,8 @@ function drawAncestors(context, view, run, places, id) {
   }
 }
 
-/** Corners of the mark of each kind of event, in units of its size; a disc if there are none. */
+/** Corners of the mark of each kind of event, in units of its size; a disc if there are none. Kinds without a colour of
+ * their own (submerge, resurface) have the colour of ice under hulls. */
 const markCorners = { split: [[0, -1.3], [1.3, 1], [-1.3, 1]], bend: [],
   mooring_break: [[0, -1.4], [1.4, 0], [0, 1.4], [-1.4, 0]], other: [[-1, -1], [1, -1], [1, 1], [-1, 1]] };
 
@@ -280,7 +282,8 @@ function drawDashed(context, view, points, colour, width, dash) {
   context.setLineDash([]);
 }
 
-/** Draws the patterns of ships that manage ice, which lie upstream of the bodies that they protect. */
+/** Draws the patterns of ships that manage ice, which lie upstream of the bodies that they protect: against the free
+ * drift of ice, or along +x if there is no drift. */
 function drawPatterns(context, view, run, motions, time, colours) {
   const [, , vx, vy] = driftAt(run.info.water.drift, time);
   const upstream = vx === 0 && vy === 0 ? 0 : Math.atan2(-vy, -vx);

@@ -1,6 +1,7 @@
 // Finds the floe under a point and shows its data.
 
-/** Floe at a point of the world: the smallest floating one, otherwise a floe under a hull; −1 if there is none. */
+/** Floe at a point of the world: the smallest floating one, because outlines may overlap; otherwise a floe under a
+ * hull; −1 if there is none. */
 function floeAt(run, places, x, y) {
   const found = floeAmong(run, places, places.living.subarray(0, places.count), x, y);
   return found >= 0 ? found : floeAmong(run, places, places.under, x, y);
@@ -45,8 +46,8 @@ function standIn(run, places, id, time) {
   return best;
 }
 
-/** Data of a floe: for each name the text, the exact number of the run, and its unit if it has one. Its end is from
- * lastFacts() in motion.js. */
+/** Data of a floe: for each name the text, the exact number of the run, and its unit if it has one. lastFacts() in
+ * motion.js adds when it went under a hull, and when it broke, surfaced or stayed under the ice. */
 function floeFacts(run, places, motions, id) {
   const { floes } = run;
   const speed = motions.isRecorded(id) ? Math.hypot(places.vx[id], places.vy[id]) : null;
@@ -88,7 +89,8 @@ function showFloeCard(host, run, places, motions, chosen, id, time, actions) {
 // listed, because the list would hide the rest of the panel.
 const longestLineage = 8;
 
-/** Links to the ancestors of a floe, each with the fracture that ended it, to the floe itself, and to its pieces. */
+/** Links to the ancestors of a floe and to the floe itself, each with the event that ended it (a fracture, or
+ * surfacing), and to its pieces. */
 function lineageList(run, id, actions) {
   const { floes, info } = run;
   const breaks = run.breakOf;
@@ -122,7 +124,7 @@ function button(words, onClick) {
   return element;
 }
 
-/** Returns a row of an event's card for one of its fields. */
+/** Returns the text for the value of one field of an event. */
 function eventValue(key, value, unit) {
   if (key === "kind") return kindWords(value);
   if (key === "children") return value.join(", ") || "\u2013";
@@ -158,7 +160,7 @@ function showEventCard(host, run, event) {
 
 /** Returns functions for the shown floe. showCard() updates the card when floe or time change, or when `cardIsStale`
  * reports another selection. While the run plays it leaves the card alone if one of its links has the focus, because
- * the focus would be lost. */
+ * the focus would be lost. After a pause the card then stays as it is until floe or time change. */
 function makeShownFloe(player) {
   const { run, state, places, motions } = player;
   let cardShown = "";

@@ -3,7 +3,9 @@
 // Mouse, pen and fingers on the map: dragging pans, the wheel or two fingers zoom, pointing identifies, a click
 // selects.
 
-const clickSlop = 5; // a press that moves by less than this is a click [px]
+// Largest motion of a press that is still a click [px]. Larger values accept less steady hands, but dragging starts
+// later. On the map it limits the length of the path, on the time axis the distance from the start.
+const clickSlop = 5;
 
 /** Position of a pointer in an element [px]. */
 function pointIn(element, { clientX, clientY }) {
@@ -13,7 +15,7 @@ function pointIn(element, { clientX, clientY }) {
 
 /** Rotation of a wheel, as the logarithm of the factor by which the map shrinks: 0.0015 per px, so that a notch of some
  * 100 px zooms by 16 %. Some browsers give it in lines, here of 33 px. Pinching on a touchpad has ctrlKey and smaller
- * turns, hence 0.01 per px. Larger factors zoom faster. */
+ * turns, hence 0.01 per px. Larger factors zoom faster. A wheel that scrolls by pages is not converted. */
 function wheelTurn({ deltaY, deltaMode, ctrlKey }) {
   return (deltaMode === 1 ? 33 * deltaY : deltaY) * (ctrlKey ? 0.01 : 0.0015);
 }
@@ -22,7 +24,8 @@ function wheelTurn({ deltaY, deltaMode, ctrlKey }) {
  * Tracks the pointers that are pressed on an element; of a mouse only its main button. Positions `at` are in pixels of
  * the element. It calls `start(event, at, count)` when a pointer is pressed, as one of `count`, `drag(at, before)` when
  * a single pressed pointer moves, `pinch(after, before)` when one of two moves, and `end(event, at)` when the last is
- * lifted or the browser cancels it. `hover(event, at)` is called for every move, pressed or not.
+ * lifted or the browser cancels it. `hover(event, at)` is called for every move, pressed or not. Moves of three or more
+ * pressed pointers neither drag nor pinch.
  */
 function watchPointers(element, { start, drag, pinch, hover, end }) {
   const pressed = new Map(); // pointer id → [x, y]
@@ -48,8 +51,9 @@ function watchPointers(element, { start, drag, pinch, hover, end }) {
   }
 }
 
-/** Connects the map to the actions. While isMeasuring() returns true, a drag measures. A second click or tap within 300
- * ms of the first doubles the scale there; the first has already selected. */
+/** Connects the map to the actions. While isMeasuring() returns true, a drag measures and a click does nothing. A
+ * second click or tap within 300 ms of the first doubles the scale there, wherever the first was; the first has already
+ * selected. */
 function watchMap(stage, actions, isMeasuring) {
   let moved = 0; // distance moved since the press [px]; with two fingers large, so that the press is no click
   let waiting = [0, 0]; // motion that is still too small to be more than a click [px]
@@ -93,7 +97,9 @@ function watchMap(stage, actions, isMeasuring) {
 }
 
 // Controls and keys. A control describes itself by attributes: `data-do` names its action, `data-with` is the argument
-// of the action, and `data-keys` are its keys.
+// of the action, and `data-keys` are its keys, separated by spaces ("Space" is the space bar), which click the control.
+// An argument that is a number other than 0 is passed as a number, any other as text. A list passes its value instead.
+// Check boxes pass no state: their actions toggle or read it.
 
 function watchControls(actions) {
   for (const control of document.querySelectorAll("[data-do]")) {
@@ -119,7 +125,8 @@ function isForControl({ target, key }) {
 }
 
 /** Connects the keys: W, A, S and D move the camera up, left, down and right by 60 px; arrows step by one frame, or
- * with Shift by ten. */
+ * with Shift by ten; < and > choose the next lower or higher rate of playback; Escape closes or deselects (letGo()).
+ * Keys of controls take precedence. Keys with Ctrl, Meta or Alt belong to the browser. */
 function watchKeys(actions) {
   const keys = {
     ArrowLeft: ({ shiftKey }) => actions.stepFrames(shiftKey ? -10 : -1),

@@ -11,8 +11,9 @@ function loadColour(q) {
   return `hsl(${55 - 55 * step} 95% ${60 - 30 * step}%)`;
 }
 
-/** Length of a waterline, and distance along it from its first vertex to its stem [m]. The stem is the foremost vertex
- * or the middle of a foremost edge, as in simulation/ship/waterline.cpp, so that peaks lie where they were recorded. */
+/** Length of a waterline, whose ring runs counter-clockwise, and distance along it from its first vertex to its stem
+ * [m]. The stem is the foremost vertex or the middle of a foremost edge, as in simulation/ship/waterline.cpp, so that
+ * peaks lie where they were recorded. */
 function waterlineOf(ring) {
   const next = (k) => ring.at(k - ring.length + 1);
   const sides = ring.map(([x, y], k) => Math.hypot(x - next(k)[0], y - next(k)[1]));
@@ -23,10 +24,12 @@ function waterlineOf(ring) {
   return { ring, length: sumOf(sides), stem: sumOf(sides.slice(0, first)) + (isEdge ? sides[first] / 2 : 0) };
 }
 
-/** Makes the loads along the hulls. panelsAt() gives the largest peak [N], and the sum [N] and number of all peaks, for
- * each panel of each ship up to a time; it continues from the previous time if time advances. A ship has `sides` panels
- * on each side of its stem, in ascending order of the arc length from the stem, which is positive to port. `most` is
- * the largest peak of all ships [N]. */
+/** Makes the loads along the hulls from peaks, which are sorted by time. A peak is the largest normal force of one
+ * contact (docs/run-folder.md, contacts.csv). panelsAt() gives the largest peak [N], and the sum [N] and number of all
+ * peaks, for each panel of each ship up to a time; it continues from the previous time if time advances. A ship has
+ * `sides` panels on each side of its stem, in ascending order of the arc length from the stem, which is positive to
+ * port. `most` is the largest peak of all ships and times of the page [N], so that the scale of colours does not
+ * change. */
 function makeLoadLine({ info, columns }) {
   const lines = info.ships.map(({ waterline_m: ring }) => waterlineOf(ring));
   const sides = lines.map(({ length }) => Math.ceil(length / 2 / loadPanel));

@@ -3,7 +3,7 @@
 /** Makes the camera of an element, `stage`, in which `canvases` lie. (x, y) is the point of the world in the middle
  * [m], `scale` the size of a metre [px]. Zooming limits it to 0.001, at which 1000 px show 1000 km, and 400, at
  * which they show 2.5 m; `fit` may exceed these limits. `width` and `height` are those of the element [px];
- * `ratio` is the number of the canvas's own pixels per pixel of the page. */
+ * `ratio` is the number of the canvas's own pixels per pixel of the page, at most 2. */
 function makeMapView(stage, canvases) {
   const view = { x: 0, y: 0, scale: 1, width: 1, height: 1, ratio: 1 };
 
@@ -30,7 +30,8 @@ function makeMapView(stage, canvases) {
     view.x -= dx / view.scale;
     view.y += dy / view.scale;
   };
-  /** Shows a box of the world [m] with a margin. */
+  /** Shows a box of the world [m], whose width and height must not both be 0, with a margin of 2 % of its size on each
+   * side; on one axis the margins may be larger. */
   view.fit = (box) => {
     const margin = 1.04;
     view.x = (box.left + box.right) / 2;
@@ -54,7 +55,8 @@ function includePoint(box, x, y) {
 }
 
 /** Box around the floating floes of a run at the times of `range`, its start and end, and around the ships in all
- * frames, of which it contains bow and stern approximately [m]. Without either it is a square of 100 m. */
+ * frames [m]. Each ship has the room of its hull at any heading. Without floes and ships it is a square with a side of
+ * 100 m. Floes are not considered at times between. `places` is left at the end of `range`. */
 function extentOf(run, motions, places, range) {
   const { floes, info, frames } = run;
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };

@@ -1,9 +1,9 @@
 // A link to an instant of the run: #t=330&floe=42. It contains the time and, of the settings that docs/view.md lists
-// under "A link", all that differ from the opening of the page.
+// under "A link", all that differ from the opening of the page. Layers and the speed of playback are not in it.
 
 /** Returns the parameters of a link for the present state of the page. `width` [m] is the width of a map that follows a
  * ship; `map` is the centre and width of any other [m]. Numbers are rounded to keep the link short: the time to 0.1 ms,
- * the map to 1 cm. */
+ * the map to 1 cm, the width to four digits. */
 function momentOf(player) {
   const { state, view, plot, run } = player;
   const words = { t: Number(state.time.toFixed(4)) };
@@ -34,7 +34,8 @@ function showWidth({ state, view }, width) {
 }
 
 /** For each parameter of a link, a function that applies its text. It returns a message about a wrong value, or
- * nothing. A range of sizes without its second number, such as "20-", has no upper limit. */
+ * nothing. A range of sizes without its second number, such as "20-", has no upper limit. Selecting a floe does not
+ * change the time. Plots beyond the largest number (plot_panel.js) are left out without a message. */
 const momentWords = {
   t(player, text) {
     const { actions, axis } = player;

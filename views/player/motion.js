@@ -19,8 +19,9 @@ function placedBy([x, y, angle]) {
   return (px, py) => [x + c * px - s * py, y + s * px + c * py];
 }
 
-/** Motion of any body at the time that setTime() has set. The functions for floes return `motion`, which the next call
- * overwrites. */
+/** Motion of any body at the time that setTime() has set, which must not be before the first frame. The functions for
+ * floes return `motion`, which the next call overwrites. Angles are continuous: frames do not reduce them to one turn,
+ * so they can be interpolated. */
 class Motions {
   constructor({ frames, floes }) {
     this.frames = frames;
@@ -114,7 +115,8 @@ class Motions {
   }
 }
 
-/** For each floe, the floe whose records place it: itself, otherwise the nearest ancestor, otherwise a descendant. */
+/** For each floe, the floe whose records place it: itself, otherwise the nearest ancestor with records, otherwise a
+ * descendant with records, of several children the one with the highest id. */
 function floeReferences({ floes, frames }) {
   const reference = new Int32Array(floes.count).fill(-1);
   for (let i = 0; i < floes.count; ++i) {
@@ -130,7 +132,7 @@ function floeReferences({ floes, frames }) {
 
 // Ice that goes under hulls, surfaces behind them or stays under the ice (docs/theory/under-hull.md).
 
-/** Number of pieces that went under, and the times at which pieces surfaced, in ascending order [s]. */
+/** Number of floes that went under a hull in the run, and the times at which they surfaced, in ascending order [s]. */
 function readIceUnderHulls(events) {
   const timesOf = (kind) => Float64Array.from(events.filter((event) => event.kind === kind), (event) => event.t_s);
   return { went: timesOf("submerge").length, cameUpAt: timesOf("resurface") };
@@ -162,7 +164,8 @@ function showCountsUnderHulls({ under }, places, time) {
   byId("came-up-now").textContent = String(lastAtMost(under.cameUpAt, time) + 1);
 }
 
-/** When a floe went under and how it ended: it broke, surfaced as a new floe, or stayed under the ice. */
+/** When a floe went under and how it ended: it broke, surfaced as new floes or, without any, as brash only, or stayed
+ * under the ice. */
 function lastFacts({ floes, info, breakOf }, id) {
   const facts = {};
   const seconds = (time) => valueWords(time, "s");

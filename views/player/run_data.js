@@ -5,12 +5,15 @@
 const mostKeptPoints = 4e6;
 
 /**
- * Returns a function that gives the points [x, y, ...] of a floe in its body frame [m], ring after ring. The rings of a
- * floe are those from rings_of[floe] to before rings_of[floe + 1]; each ends before the point ring_ends[ring], counted
- * from the floe's first point. The page contains shapes as floes.ndjson does (docs/run-folder.md): whole, or in parts,
- * in the order of the floe's points. A part is `part_count` points of `part_floe` from the point `part_first`: of the
- * parent's ring `part_ring`, where it may wrap around from the ring's end to its start, or, if `part_ring` is negative,
- * of the floe's own new points in points_m. Shapes in parts are assembled when they are needed and then kept.
+ * Returns a function that gives the points [x, y, ...] of a floe in its body frame [m], ring after ring. Coordinates in
+ * the body frame are those that the floe's oldest ancestor had in the scene, so its origin is not the centroid. The
+ * rings of a floe are those from rings_of[floe] to before rings_of[floe + 1]; each ends before the point
+ * ring_ends[ring], counted from the floe's first point. The page contains shapes as floes.ndjson does
+ * (docs/run-folder.md): whole, or in parts, in the order of the floe's points. A part is `part_count` points of
+ * `part_floe` from the point `part_first`: of the parent's ring `part_ring`, where it may wrap around from the ring's
+ * end to its start, or, if `part_ring` is negative, of the floe's own new points in points_m. Parts are sorted by floe.
+ * Floes are numbered by the ids of the run, also on a page of an area; a parent has a smaller id than its pieces.
+ * Shapes in parts are assembled when they are needed and then kept.
  */
 function makeShapes({ parent, rings_of: ringsOf, ring_ends: ringEnds, points_m: points, ...parts }) {
   const { part_floe: floeOf, part_ring: ringOf, part_first: firstOf, part_count: countOf } = parts;
@@ -69,7 +72,7 @@ const floeRows = ["parent", "generation", "born_s", "died_s", "went_under_s", "c
   "thickness_m", "flexural_strength_Pa", "centroid_x_m", "centroid_y_m", "reach_m"];
 
 /** Expands the columns of a page of an area, which has only some floes, to all floes of the run. Floes that the page
- * does not have never exist (born = Infinity). */
+ * does not have are never born, never break and never go under (times of Infinity), so they are never drawn. */
 function spreadFloes(columns, count) {
   const ids = columns.floe_id;
   for (const name of floeRows) {
@@ -86,7 +89,8 @@ function spreadFloes(columns, count) {
 /**
  * The source of the player's run. `read()` returns the words and lists of a run, `info`, and its columns of numbers,
  * `bytes`, both as views/player/player_data.cpp makes them; `info.columns` states where each column is in the bytes.
- * This source is the page that `polynya view` writes. The player can show any other source with these two.
+ * This source is the page that `polynya view` writes. The player can show any other source with these two. The text of
+ * the columns is removed from the page once it is read, to free memory.
  */
 const pageSource = {
   read() {
@@ -97,7 +101,8 @@ const pageSource = {
   },
 };
 
-/** Reads the run from a source. */
+/** Reads the run from a source. Columns are views into its bytes, so each must begin at a multiple of 8 bytes in their
+ * buffer. */
 function readRun(source) {
   const { info, bytes } = source.read();
   const columns = {};
@@ -109,9 +114,10 @@ function readRun(source) {
   return { info, columns, floes, frames, forces: readForces(info, columns) };
 }
 
-/** Columns of floes, named without units: died_s becomes `died`, went_under_s `wentUnder`. `reach` is the distance of
- * the farthest vertex from the centroid. `floatsUntil` is the time at which it broke or went under. `cameUp` is true
- * for floes that surfaced from under a hull, and for their pieces. */
+/** Columns of floes, named without units: died_s becomes `died`, went_under_s `wentUnder`; both are Infinity if it
+ * never happens. `generation` is the number of ancestors of a floe. `reach` is the distance of the farthest vertex from
+ * the centroid. `floatsUntil` is the time at which it broke or went under. `cameUp` is true for floes that surfaced
+ * from under a hull, and for their pieces. */
 function readFloes(columns) {
   const capital = (_, letter) => letter.toUpperCase();
   const nameOf = (column) => column.replace(/_(s|m|m2|kg|Pa)$/, "").replace(/_(.)/g, capital);
@@ -131,7 +137,9 @@ function readFloes(columns) {
   return floes;
 }
 
-/** Reads frames.bin (docs/run-folder.md) and sorts its records by floe. The records of a floe are those from
+/** Reads frames.bin (docs/run-folder.md) and sorts its records by floe. The file has a header of 16 bytes. A frame has
+ * four 32-bit words ("FRAM", the numbers of ships and floes, and 0), its time, six doubles per ship, and for each floe
+ * its id as a 64-bit integer and six doubles. A page contains whole frames only. The records of a floe are those from
  * recordsOf[floe] to before recordsOf[floe + 1], in ascending order of time: `recordFrame` is the frame of each, and
  * `recordAt` the index in `doubles` of its six numbers, which motion.js names. */
 function readFrames(bytes, floeCount, shipCount) {
