@@ -62,16 +62,17 @@ function valueWords(value, base, isSteady = false) {
 
 const metresPerSecondOfKnot = 1852 / 3600;
 
-/** Speed of a ship in both units in use, m/s and knots. */
+/** Speed of a ship in both units in use, m/s and knots; the knots have at most two decimals. */
 const shipSpeedWords = (speed) =>
   `${valueWords(speed, "m/s")} (${fourDigits(Number((speed / metresPerSecondOfKnot).toFixed(2)))} kn)`;
 
-/** Largest of 1, 2, 5 × 10ⁿ that is at most `room`. */
+/** Largest of 1, 2, 5 × 10ⁿ that is at most `room`: the length of a scale bar, or a limit of a class of colours. */
 function roundBelow(room) {
   const decade = 10 ** Math.floor(Math.log10(room));
   return decade * (room >= 5 * decade ? 5 : room >= 2 * decade ? 2 : 1);
 }
 
+/** A number of a running text, such as a floe size or a wind speed, with at most three significant digits. */
 const shortNumber = (value) => String(Number(value.toPrecision(3)));
 
 /** Sets the size of a canvas [px] and clears it. Returns the number of its own pixels per pixel of the page, at most 2

@@ -6,8 +6,9 @@ function momentOfPair([first, second], clock) {
   return words;
 }
 
-/** Goes to the instant of a link in the first player, whose settings the second then takes over (`common`), and selects
- * the floe of the second. Returns messages about parts that were not understood. */
+/** Goes to the instant of a link in the first player, and selects the floe of the second. At the next refresh of the
+ * screen share() of makeCommon() copies the settings that the link changed to the second player. Returns messages about
+ * parts that were not understood. */
 function goToMomentOfPair([first, second], link) {
   const words = new URLSearchParams(link.replace(/^#/, ""));
   const ofSecond = words.get("floe2");
@@ -18,7 +19,8 @@ function goToMomentOfPair([first, second], link) {
 // Two runs side by side. Each has its own player in a frame. This script has their common clock and their common
 // settings.
 
-/** Returns the page of one of the runs, made from its data in this page. */
+/** Returns the page of run `k`, made from its data in this page. `axis_s` is the range of times that the axes of both
+ * runs show [s]. */
 function pageOfRun(template, { labels, axis_s }, k) {
   const take = (id) => {
     const text = byId(id).textContent;
@@ -58,7 +60,9 @@ function makePairClock(players) {
   return clock;
 }
 
-/** Applies the settings of another player's plots, as far as this player has the same curves. */
+/** Applies the settings of another player's plots, as far as this player has the same curves: the quantity and the
+ * hidden curves of the first plot, the full scale or the scale without spikes (`isFull`), the visible part of the run
+ * (`span` [s]), and the quantities of the `further` plots. */
 function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, span, further }) {
   if (Object.hasOwn(plot.quantities, quantity) && (plot.quantity !== quantity
     || [...plot.hidden].join() !== hidden.join())) {
@@ -71,8 +75,9 @@ function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, sp
   plot.show(...span);
 }
 
-/** Settings that both players share: `of` reads one from a player, `give` applies it to another. It is shared while
- * `isOn` returns true, or always without it. */
+/** Settings that both players share: `of` reads one from a player, `give` applies it to another. A setting is shared
+ * while `isOn` returns true, or always without it. Changes that are made while `isOn` returns false are not shared
+ * later. */
 const common = {
   colours: { of: ({ state }) => state.colourBy, give: ({ actions }, by) => actions.colourBy(by) },
   layers: { of: ({ state }) => state.layers, give: ({ actions }, layers) =>
@@ -145,7 +150,7 @@ function joinScales(players) {
   });
 }
 
-/** Moves to the next or previous event of either run. */
+/** Moves to the next or previous event of either run that has a mark on the timeline. */
 function stepEvent(players, clock, step) {
   const found = players.map(({ actions, run }) => {
     const index = actions.eventFrom(clock.time, step);
@@ -176,6 +181,8 @@ function watchBar(players, clock, shared, address) {
   });
 }
 
+/** Starts the page. Both runs play at the larger of the speeds at which they would start alone. Tests use
+ * `polynyaPair`. */
 async function startPair() {
   const players = await openPlayers();
   const clock = makePairClock(players);

@@ -4,7 +4,8 @@
 const currentCell = 110; // distance between the arrows of the current [px]
 const longestArrow = 40; // length of the arrow of the fastest current on the screen [px]
 
-/** Draws arrows of the current over ground across the map. Returns its largest speed [m/s]. */
+/** Draws arrows of the current over ground at the start of the scene. Returns the speed of the fastest one [m/s]; water
+ * outside the visible part of the map may be faster. */
 function drawCurrent(context, view, run, colours) {
   const arrows = [];
   for (let px = currentCell / 2; px < view.width; px += currentCell) {
@@ -26,7 +27,8 @@ function drawCurrent(context, view, run, colours) {
   return fastest;
 }
 
-/** Draws the wind as one arrow, and the speeds of wind and current as text. */
+/** Draws the wind as one arrow in the direction to which it blows, of the same length at every speed, and the speeds
+ * of wind and current as text. */
 function drawWindAndWords(context, view, [wx, wy], fastest, { panel, ink }) {
   const wind = Math.hypot(wx, wy);
   if (wind > 0) {
@@ -40,6 +42,8 @@ function drawWindAndWords(context, view, [wx, wy], fastest, { panel, ink }) {
       "right");
 }
 
+/** Draws a route: the legs from the ship's position at the start, which is the first point, and at each waypoint its
+ * number and the speed on the leg to it. */
 function drawRoute(context, view, { points_m: points, speeds_m_per_s: speeds }, { panel, ink, highlight }) {
   traceLine(context, points.map((point) => view.toScreen(...point)));
   context.setLineDash([10, 4]);
@@ -55,6 +59,7 @@ function drawRoute(context, view, { points_m: points, speeds_m_per_s: speeds }, 
   });
 }
 
+/** Draws a triangle above the place of a problem, with its number in the list. Hints and warnings differ in colour. */
 function drawProblem(context, view, problem, number, colours) {
   const [x, y] = view.toScreen(...problem.point_m);
   traceLine(context, [[x, y - 32], [x + 11, y - 13], [x - 11, y - 13]]);
@@ -85,7 +90,8 @@ function pickPlace({ view, state }, px, py) {
   copyText(words, `${words} m, copied`, `${words} m`);
 }
 
-/** Shows the problems of a scene instead of a run, and hides everything that needs time. */
+/** Shows the problems of a scene instead of a run, and hides everything that needs time. A page of `polynya view
+ * --watch` looks for a newer version each second. */
 function fillPlan({ plan, run }) {
   document.body.classList.add("plan");
   byId("badge").textContent = `not run; until ${run.info.until_s} s`;

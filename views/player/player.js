@@ -79,7 +79,8 @@ function showNumbers({ run, state, places, plotPanel, sizePanel, timeline }) {
   timeline.setTime(state.time, `${words}, ${counted(places.count, "floe")}`);
 }
 
-/** Draws at each refresh of the screen what has changed. Tests wait for `drawn`, the number of pictures of the ice.
+/** Draws at each refresh of the screen what has changed, and advances the clock of the player; of two runs side by side
+ * only their common clock runs. Tests wait for `drawn`, the number of pictures of the ice.
  * tools/measure_player.js reads `drawTimes`, the time that each took [ms]; the list is emptied at 2000 to limit it. */
 function startDrawing(player, canvases) {
   const { state, view, places, motions } = player;
@@ -112,7 +113,8 @@ function startDrawing(player, canvases) {
 // Assembly of the player.
 
 /** Reads the run, and adds data that several parts use. `breakOf` has, for each floe, the index of the event that ended
- * it. */
+ * it; a rejected cut does not end a floe, nor does going under a hull. `moorings` tells when moorings broke, `carry`
+ * moves points with the water. */
 function readPlayedRun(source) {
   const run = readRun(source);
   run.breakOf = new Map();
@@ -131,7 +133,8 @@ function readPlayedRun(source) {
 const readOptions = () => JSON.parse(byId("page-options").textContent);
 
 /** State of the page when it opens. Indices are −1 if nothing is chosen. `iceDirty` is set when all must be drawn
- * again, `marksDirty` when only the marks above the ice must. */
+ * again, `marksDirty` when only the marks above the ice must. The channel is shown if a ship moves through the water,
+ * the ice at the start if a ship moves over ground. */
 function firstState(run, motions, range) {
   const isUnderWay = (carry) => run.frames.times.length > 0 && run.info.ships.some(({ is_moored: isMoored }, ship) =>
     !isMoored && hasGone(run, motions, ship, carry));
@@ -145,7 +148,9 @@ function firstState(run, motions, range) {
   });
 }
 
-/** Makes the player without its controls. Tests and measurements read its members. */
+/** Makes the player without its controls. Tests and measurements read its members. `cardIsStale` is set when the card
+ * of a floe must be filled again; `loadLine` has the loads along the hulls. Only tests use the last four members:
+ * `stations` of the channel behind a ship, `contacts` of the present frame, `valueWords` and `rulerWords`. */
 function makePlayer(canvases, source) {
   const run = readPlayedRun(source);
   const { times } = run.frames;

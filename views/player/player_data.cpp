@@ -39,7 +39,8 @@ class HeldFloes {
   std::vector<simulation::FloeId> ids_;
 };
 
-/// Collects the shapes of floes in columns, which views/player/run_data.js reads.
+/// Collects the shapes of floes in columns. makeShapes() in views/player/run_data.js reads them and explains the
+/// columns of parts.
 class ShapeColumns {
  public:
   explicit ShapeColumns(const io::Run& run) : run_(run) {}
@@ -92,9 +93,10 @@ class ShapeColumns {
 };
 
 /// Adds columns with one value per floe: floe_id (only if the page does not contain all floes), parent, generation,
-/// born_s, died_s, went_under_s, came_up, area_m2, mass_kg, thickness_m, flexural_strength_Pa, centroid, and reach_m,
-/// the distance of the farthest vertex from the centroid. The shape follows: the ends of its rings, counted from its
-/// first vertex, and its vertices. For a shape that refers to its parent, these are its parts and its new vertices.
+/// born_s, died_s, went_under_s, came_up (1 if the floe, or one from which it broke, surfaced from under a hull),
+/// area_m2, mass_kg, thickness_m, flexural_strength_Pa, centroid, and reach_m, the distance of the farthest vertex from
+/// the centroid. The shape follows: the ends of its rings, counted from its first vertex, and its vertices. For a shape
+/// that refers to its parent, these are its parts and its new vertices.
 void add_floes(ColumnWriter& columns, const io::Run& run, const HeldFloes& held) {
   const auto add_of_floe = [&](const char* name, auto read) {
     columns.add(name, held.ids(), [&run, read](simulation::FloeId id) { return std::invoke(read, *run.floe(id)); });
@@ -130,9 +132,9 @@ double gap(const Box& box, const Box& other) {
 }
 
 /// Returns, for each floe, the distance by which a box must grow on all sides so that the floe, or a floe of its
-/// family, comes within it at one of these frames [m]; 0 if one does without. A family are all floes that broke from
-/// one floe of the scene. The distance is estimated from the floes' circles and from the boxes of their paths between
-/// records. HeldFloes only asks whether it is 0.
+/// family, comes within it at one of these frames [m]; 0 if one of them comes within the box as it is. A family is one
+/// floe of the scene with all floes that broke from it. The distance is estimated from the floes' circles and from the
+/// boxes of their paths between records. HeldFloes only asks whether it is 0.
 std::vector<double> family_distances(const io::Run& run, const Box& box, const std::vector<io::Frame>& frames) {
   std::vector<std::size_t> oldest(run.floes.size());
   std::vector<double> reach(run.floes.size());
@@ -170,6 +172,7 @@ std::vector<double> family_distances(const io::Run& run, const Box& box, const s
   return distances;
 }
 
+/// Adds the contacts at these frames. Contacts with floes that the page does not contain are left out.
 void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames,
                   const HeldFloes& held) {
   std::vector<io::RunContact> contacts;
@@ -193,7 +196,7 @@ void add_contacts(ColumnWriter& columns, const io::Run& run, const std::vector<i
   add("contact_is_crushing", [](const ContactState& c) { return c.is_crushing; });
 }
 
-/// Adds the peaks of forces on hulls within the selected time.
+/// Adds the peaks of forces on hulls within the selected time, also those from floes that the page does not contain.
 void add_peaks(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
   std::vector<io::RunContact> peaks;
   const double from = frames.empty() ? 0 : frames.front().time, until = frames.empty() ? 0 : frames.back().time;
@@ -206,10 +209,10 @@ void add_peaks(ColumnWriter& columns, const io::Run& run, const std::vector<io::
               [](const io::RunContact& peak) { return peak.state.pressure * peak.state.width * peak.state.height; });
 }
 
-/// Adds, for each ship, the stations that are a channel, at frames spread evenly over the run and at the last one.
+/// Adds, for each hull, the stations that are a channel, at frames spread evenly over the run and at the last one.
 /// Stations that geometry fails to measure are left out.
 void add_channels(ColumnWriter& columns, const io::Run& run, const std::vector<io::Frame>& frames) {
-  // Largest number of instants at which the channels are measured. More make pages larger and take longer: 80 bytes per
+  // Largest number of instants at which the channels are measured. More make pages larger and take longer: 76 bytes per
   // station, and a millisecond per instant with 500 floes.
   constexpr std::size_t kMostInstants = 200;
   struct Row {
@@ -336,7 +339,8 @@ void write_ships(io::JsonWriter& json, const simulation::Scene& scene) {
 
 /// Writes the drift of the water over time: t [s], x and y of its path [m], and the velocity of free drift of ice in x
 /// and y [m/s]. The duration of the scene is divided into kSamples intervals, between which the player interpolates
-/// linearly: more follow a changing drift more closely and make the page larger. Steady drift needs only one.
+/// linearly: more follow a changing drift more closely and make the page larger. Steady drift needs only one. The page
+/// moves channels with the path, and orients the patterns of write_patterns() upstream by the velocity.
 void write_drift(io::JsonWriter& json, const simulation::Scene& scene) {
   constexpr int kSamples = 400;
   const int samples = scene.water.is_steady() && scene.wind.rows.empty() ? 1 : kSamples;
@@ -367,7 +371,7 @@ void write_summary(io::JsonWriter& json, const io::Run& run) {
     json.key("stopped_by").value(by->text());
 }
 
-/// Writes the tick and the shortest time step, which older runs did not record.
+/// Writes the tick, the number of time steps and the shortest one. Older runs did not record all of them.
 void write_steps(io::JsonWriter& json, const io::Run& run) {
   for (const char* key : {"step_s", "time_steps", "shortest_step_s"})
     if (const io::JsonValue* found = run.summary.find(key, io::JsonValue::Kind::kNumber))

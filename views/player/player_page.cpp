@@ -16,7 +16,8 @@ std::string in_script(const std::string& json) {
   return text;
 }
 
-/// Returns a template with its marks replaced. The marks and their texts are in the order in which the marks occur.
+/// Returns a template with its marks replaced. The marks and their texts are in the order in which the marks occur. The
+/// template must contain every mark.
 std::string filled(std::string_view page, const std::vector<std::pair<std::string_view, std::string>>& fillings) {
   std::string text;
   for (const auto& [mark, filling] : fillings) {

@@ -17,8 +17,8 @@
 
 namespace polynya::views {
 
-/// Packs columns of numbers one after the other, each at a multiple of 8 bytes, as the player reads them. `table` lists
-/// name, type ("f64", "i32", "u8"), first byte and number of values of each column.
+/// Packs columns of numbers one after the other, each at a multiple of 8 bytes, as the player's typed arrays need.
+/// `table` lists name, type ("f64", "i32", "u8"), first byte and number of values of each column.
 class ColumnWriter {
  public:
   struct Column {
@@ -69,7 +69,7 @@ struct PlayerData {
 
 /// Selects the part of a run that a page contains.
 struct PlayerSelection {
-  io::FrameSelection frames;
+  io::FrameSelection frames;  ///< the part of the run in time, and which of its frames
   /// Only floes that come within this box at some frame, and their families (floes from one floe of the scene).
   std::optional<geometry::Box> area;
 };
@@ -95,8 +95,8 @@ struct ShownRun {
 /// Returns one HTML file that shows two runs side by side with a common clock (docs/view.md).
 std::string pair_page(const std::array<ShownRun, 2>& runs);
 
-/// Returns the options of the page of a scene that has not run, as JSON: the routes of ships, the wind, and the
-/// warnings of `polynya validate`. scene_page() explains `stamp` and `stamp_file`.
+/// Returns the options of the page of a scene that has not run, as JSON: the routes of ships, the wind at the start,
+/// and the warnings and hints of `polynya validate`. scene_page() explains `stamp` and `stamp_file`.
 std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, const std::string& stamp_file);
 
 /// Returns one HTML file that shows a scene that has not run (docs/view.md). For `--watch`, `stamp` identifies this

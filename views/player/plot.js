@@ -6,8 +6,8 @@ function lineOf({ kind, isArea = false }) {
     ? { class: "line area", style: `background: var(--cause-${kind})` } : { class: `line ${kind}` });
 }
 
-/** Fills the plot's legend: a check box, a sample and a value for each curve. Returns a function that shows the values
- * at a time [s]. */
+/** Fills the plot's legend: a check box, a sample and a value for each curve; a single curve has only its value.
+ * Returns a function that shows the values at a time [s]. Tests read the `data-` attributes. */
 function fillPlotKey(run, plot, host, onChange) {
   const { ships } = run.info;
   const outputs = [];
@@ -42,7 +42,8 @@ function fillPlotKey(run, plot, host, onChange) {
 
 // Text above the plot about rows that are beyond its scale.
 
-/** Counts the visible rows that are beyond the scale, and finds the largest of each curve. */
+/** Counts the visible rows of loads, or columns of stacked areas, that are beyond the scale, and describes the largest
+ * of each curve. Returns null if there are none. */
 function countOffScale(plot) {
   const ranges = plot.axisRanges();
   const all = { count: 0, words: [] };
@@ -84,7 +85,8 @@ function chartAxis({ colours }, scale, label, extra) {
     font, labelFont: font, label, labelSize: 16, gap: 3, ...extra };
 }
 
-/** Axis of a scale on a side of the chart: 3 is left, 1 is right. */
+/** Axis of a scale on a side of the chart: 3 is left, 1 is right. The scale "paper" is that of j/τ_c
+ * (docs/glossary.md), which is much larger than the loads. */
 function valueAxis(plot, scale, side) {
   const base = plot.shownCurves().find((curve) => curve.scale === scale)?.base ?? "";
   const unit = (chart) =>
@@ -211,9 +213,9 @@ function watchPlot(plot, range, { onTime, onPoint }) {
 const shortestSpan = 20; // least number of rows of forces.csv in view; it limits zooming
 
 /** `on` has callbacks: `onTime` receives the requested time, `onPoint` the position of the pointer [px] (null:
- * outside), `onPlaced` the left end and the width of the time axis [px], `onSpan` the visible part of the run [s].
- * `hasPaperAxis` returns true if any of the plots has that axis on its right. A plot without `quantity` is the first of
- * the plots one below the other. */
+ * outside), `onPlaced` the left end and the width of the time axis [px], to which the timeline is aligned, `onSpan` the
+ * visible part of the run [s]. `hasPaperAxis` returns true if any of the plots has that axis on its right. A plot
+ * without `quantity` is the first of the plots one below the other. */
 class Plot {
   constructor(run, host, range, on, quantity) {
     Object.assign(this, { run, host, range, on });
@@ -268,7 +270,8 @@ class Plot {
     return this.span !== this.range;
   }
 
-  /** Index of a ship's first visible row, and one past its last. */
+  /** Index of a ship's last row at or before the visible part, from which a line leads into it, and one past the last
+   * visible row. */
   rowsInView(ship) {
     const times = this.run.forces[ship].force_t_s;
     return [Math.max(0, lastAtMost(times, this.span[0])), lastAtMost(times, this.span[1]) + 1];
@@ -300,7 +303,8 @@ class Plot {
     return Object.fromEntries(this.scales().map((name) => [name, rangeOf(columnsOf(name))]));
   }
 
-  /** Ranges of the axes, by scale, for the visible values. Quantities other than loads get a margin of 10 %. */
+  /** Ranges of the axes, by scale, for the visible values. Those of loads have 0 at the same height; other quantities
+   * get a margin of 10 %. */
   axisRanges() {
     const needed = this.widened(this.neededRanges());
     const names = Object.keys(needed);

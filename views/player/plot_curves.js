@@ -51,7 +51,8 @@ function wholeRange(columns) {
 }
 
 /** Ranges with a margin of 6 %, extended so that 0 is at the same height in all of them. They extend below 0 by at
- * least 4 % of their largest magnitude, so that a curve at 0 is visible, and above 0 by at least 10 % of it. */
+ * least 4 % of their largest magnitude, so that a curve at 0 is visible, and above 0 by at least 10 % of it.
+ * Ranges in which all values are 0 end at about 1 in the base unit. */
 function alignedRanges(ranges) {
   const size = ([low, high]) => Math.max(high, -low) || 1;
   const below = Math.max(...ranges.map((range) => -range[0] / size(range)));
@@ -97,8 +98,8 @@ function stackedQuantities({ info: { force_causes: causes, ships }, forces }) {
   return quantities;
 }
 
-// Quantities of the plot, each with its curves, which are columns of forces.csv. True loads come first. The paper's
-// j/τ_c, which is much larger, has its own name and axis.
+// Quantities of the plot, each with its curves, which are columns of forces.csv. True loads come first. The
+// collision force j/τ_c of Sawamura's paper (docs/glossary.md), which is much larger, has its own name and axis.
 
 /** Quantities that a run can show; each has the name of the first of its columns. Optional quantities, which not every
  * run has, are listed last, and only if one of their values is not 0. */
@@ -127,7 +128,7 @@ function rowAt(rows, time) {
 }
 
 /** Style of a curve: the colour of its ship; the largest steps are pale and behind the means; the paper's load is
- * dashed. */
+ * dashed and, in a run with one ship, has a colour of its own. */
 function curveStyle(curve, ship, ships, colours) {
   if (curve.kind === "sum") return { stroke: colours.ink, width: 1.5 };
   const colour = curve.kind === "paper" && ships === 1 ? colours["paper-load"] : shipColour(colours, ship);

@@ -1,7 +1,8 @@
 // The plots with their controls and legends, one below the other, and the timeline, which has the same width. All plots
-// show the same part of the run. The controls of the first plot apply to all.
+// show the same part of the run. The buttons for the full scale and for the whole run apply to all plots; each plot has
+// its own quantity and its own hidden curves.
 
-const mostPlots = 4; // more would leave each too little height
+const mostPlots = 4; // largest number of plots, with the first one; more would leave each too little height
 
 /** Makes one plot with its legend. `parts` are the list of quantities, the element of the plot and that of the legend.
  * */
@@ -52,7 +53,8 @@ function showPlotTools(panel) {
   byId("add-plot").disabled = panel.views.length >= mostPlots || nextQuantity(panel) === undefined;
 }
 
-/** Shows the position of the pointer in one plot [px] in all plots, and the time there. */
+/** Shows the position of the pointer in one plot [px] in all plots. The plot with the pointer also shows the time at
+ * which the interval of the row there ends. */
 function showPointed(panel, px, pointedPlot) {
   panel.pointed = px === null ? null : pointedPlot.timeAt(px);
   for (const { plot } of panel.views) {
@@ -65,7 +67,8 @@ function showPointed(panel, px, pointedPlot) {
   }
 }
 
-/** Adds a plot of a quantity below the others. It shows the same part of the run. */
+/** Adds a plot of a quantity below the others. It shows the same part of the run. If its quantity is changed, the map
+ * is marked for drawing, because drawing also updates the address of the page. */
 function addPlotView(player, panel, quantity) {
   const parts = furtherParts((name) => {
     view.plot.quantity = name;
@@ -95,7 +98,7 @@ function makePlotPanel(player) {
   };
   Object.assign(panel, {
     showTools: () => showPlotTools(panel),
-    /** Shows the values at the pointer in the legends: those of the rows that end at the times shown. */
+    /** Shows the values at the pointer in the legends: those of the rows whose intervals contain the time there. */
     point(px, pointedPlot) {
       showPointed(panel, px, pointedPlot);
       panel.setTime(state.time);

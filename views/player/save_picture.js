@@ -3,7 +3,8 @@
 // The map has two pictures: the ice, and everything above it.
 
 /** Returns a function that draws the ice and the channels. The picture of ice that hardly moves (draw_ice.js) is made
- * for the next second of playback, but at least for 5 s of the run. */
+ * for the next second of playback, but at least for 5 s of the run. For a longer time it would be made more rarely, but
+ * more floes would move in that time and be drawn at each refresh. */
 function makeIcePicture(player, canvas) {
   const { run, state, view, places, motions, colourings, range } = player;
   const start = startPlaces(run, motions, range[0]);
@@ -35,7 +36,9 @@ function makeIcePicture(player, canvas) {
   };
 }
 
-/** Returns a function that draws everything above the ice. Its argument is the highlighted floe, −1 for none. */
+/** Returns a function that draws everything above the ice. Its argument is the highlighted floe, −1 for none. A notice
+ * says so if the run has no data for the layers of forces or loads. Tests read the places of names from
+ * player.namesAt(). */
 function makeMarksPicture(player, canvas) {
   const { run, state, view, places, motions, loadLine } = player;
   const marks = canvas.getContext("2d");

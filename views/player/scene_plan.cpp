@@ -30,6 +30,8 @@ std::optional<Point> place_of(const io::Problem& problem, const simulation::Scen
   return {};
 }
 
+/// Writes the routes of the ships that follow one: the ship's position and the waypoints, and the speed on the leg to
+/// each waypoint.
 void write_routes(io::JsonWriter& json, const simulation::Scene& scene) {
   json.key("routes").open('[');
   for (const simulation::Ship& ship : scene.ships) {
@@ -46,6 +48,7 @@ void write_routes(io::JsonWriter& json, const simulation::Scene& scene) {
 
 }  // namespace
 
+// The words of a problem are its message with the values that are allowed; its line is 0 if no line is known.
 std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, const std::string& stamp_file) {
   std::string text;
   io::JsonWriter json(text);

@@ -29,7 +29,9 @@ const angleWords = (angle) => degreeWords((180 / Math.PI) * Math.atan2(Math.sin(
 
 const slowest = 0.005; // below this speed no course is shown, because its direction would be arbitrary [m/s]
 
-/** Rows of a ship's card: name, text, exact value if the text is rounded, and meaning of the row. */
+/** Rows of a ship's card: name, text, exact value if the text is rounded, and meaning of the row. The motion of
+ * the ship is interpolated between frames. Lever, rudder, power and number of contacts are from forces.csv, at the
+ * end of the row's interval that contains the time. */
 function shipFacts(run, motions, index, time) {
   const ship = run.info.ships[index];
   const [, , heading, vx, vy, turn] = motions.ship(index);

@@ -23,11 +23,12 @@ function touchesRing({ left, right, top, bottom }, ring) {
 
 const touchesBox = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 
-/** Directions from a ship in which a place for its name is tried, as [x, y] on the screen. */
+/** Directions from a ship in which a place for its name is tried, as [x, y] on the screen. Of equally near places the
+ * earlier direction is taken. */
 const nameSides = [[0, -1], [0, 1], [1, 0], [-1, 0], [0.7, -0.7], [-0.7, -0.7], [0.7, 0.7], [-0.7, 0.7]];
 
-/** Distance [px] by which a name must be moved from a ship's centre in a direction until it is free; Infinity if it
- * never is. */
+/** Returns the distance [px] by which a name must be moved from a ship's centre in a direction until it is free, and
+ * the name's place there; only the distance Infinity if it never is. Half the width of the name is added sideways. */
 function freeDistance([x, y], [sx, sy], width, isFree) {
   for (let far = 0; far <= farthestName; far += nameStep) {
     const [middle, centre] = [x + sx * (far + 0.5 * width * Math.abs(sx)), y + sy * far];
@@ -38,8 +39,8 @@ function freeDistance([x, y], [sx, sy], width, isFree) {
   return { far: Infinity };
 }
 
-/** Returns a function that draws the names of ships and returns their places. `ships` have names and outlines on the
- * screen. It remembers the side on which each name was. */
+/** Returns a function that draws the names of ships and returns their places, which tests check. `ships` have names and
+ * outlines on the screen. The function remembers the side on which each name was. */
 function makeNamePlacer() {
   const sides = new Map();
   return (context, view, ships, colours) => {

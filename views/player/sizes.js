@@ -10,7 +10,7 @@ const leastClasses = 6;
 const sizeOf = (floes, id) => Math.sqrt(floes.area[id]);
 
 /** Limits of classes that contain all sizes from the smallest to the largest. If these are too few, classes are added
- * below and above in turn. */
+ * above and below until there are enough. */
 function sizeEdges(least, largest) {
   const edgeOf = (n) => Number((roundSizes[((n % 10) + 10) % 10] * 10 ** Math.floor(n / 10)).toPrecision(3));
   let first = Math.floor(10 * Math.log10(least)) - 1;
@@ -21,7 +21,7 @@ function sizeEdges(least, largest) {
   return Array.from({ length: last - first + 1 }, (_, k) => edgeOf(first + k));
 }
 
-/** Classes of the floes of a run: their limits, and the class of each floe. */
+/** Classes of the floes of a run: their limits, and the class of each floe; that of a floe without area is 0. */
 function makeSizeClasses({ floes }) {
   let [least, largest] = [Infinity, 0];
   for (let id = 0; id < floes.count; ++id) {
@@ -58,14 +58,14 @@ function isInSizes(floes, id, range) {
   return range === null || (sizeOf(floes, id) >= range.from && sizeOf(floes, id) < range.below);
 }
 
-/** "from 5 to 20 m" */
+/** A range of sizes as text for the legend: "from 5 to 20 m", or "from 20 m on". */
 const sizeRangeWords = ({ from, below }) =>
   (Number.isFinite(below) ? `from ${shortNumber(from)} to ${shortNumber(below)} m` : `from ${shortNumber(from)} m on`);
 
 const paleness = 0.72; // fraction of the water's colour in floes outside the selected range
 
 /** Returns a colouring in which floes outside a range of sizes are pale: the bucket of a floe, the colour of each
- * bucket, and the colour of its edge. A pale bucket precedes the others. */
+ * bucket, and the colour of its edge. The pale buckets precede the others, which are drawn over them. */
 function paleOutOfSizes(colouring, floes, range, colours) {
   const bucketOf = (id) => classOf(colouring.value(id), colouring.edges);
   const edge = colours["ice-edge"];
@@ -126,7 +126,8 @@ function watchHistogram(host, { edges }, panel, actions) {
   host.addEventListener("dblclick", () => actions.chooseSizes());
 }
 
-/** Handles the two fields with the ends of the range. Values that are no range are ignored. */
+/** Handles the two fields with the ends of the range. If their values are no range, the fields are set back to the
+ * present range. */
 function watchSizeFields(state, actions) {
   for (const id of ["size-from", "size-below"]) {
     byId(id).addEventListener("change", () => {

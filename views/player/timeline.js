@@ -1,5 +1,5 @@
-// The timeline: a slider with a mark for each fracture, refused cut and broken mooring. A click on a mark moves to it;
-// dragging moves through time.
+// The timeline: a slider with a mark for each fracture (split, bend or grind), rejected cut and broken mooring.
+// A click on a mark moves to it; dragging moves through time.
 
 const nearMark = 5; // largest distance between the pointer and a mark that is hit [px]
 const markedHeight = 23; // marks are in this part of the timeline, measured from its top [px]
