@@ -66,9 +66,15 @@ class HashGrid {
     double cell = 0;  ///< side of the cells [m]
     std::unordered_map<std::int64_t, std::vector<BodyIndex>> cells;
   };
-  static constexpr double kFiner = 8;          ///< side of a level's cells over that of the next, finer level [-]
-  static constexpr double kFewCells = 64;      ///< boxes of up to this many cells are looked up cell by cell
-  static constexpr double kMostCells = 65536;  ///< a body that spans more cells is in none, and near all bodies
+  // The following numbers change only the computing time.
+  /// Side of a level's cells / side of the cells of the next, finer level [-]. Larger values put more small bodies into
+  /// one cell; with smaller ones, the levels cover a smaller range of sizes.
+  static constexpr double kFiner = 8;
+  /// Boxes of up to this many cells are looked up cell by cell. Larger boxes are looked up so only if the level has at
+  /// least as many used cells; otherwise all its bodies are passed.
+  static constexpr double kFewCells = 64;
+  /// A body whose box spans more cells of the coarsest level is in none of them, and is passed for every box.
+  static constexpr double kMostCells = 65536;
 
   /// Column and row of a point's cell.
   static std::array<std::int64_t, 2> cell_of(geometry::Point p, double cell) {

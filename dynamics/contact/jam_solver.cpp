@@ -37,6 +37,8 @@ constexpr double kRigid = 1e6;
 /// results.
 constexpr std::size_t kPerChunk = 48;
 
+/// Returns the derivatives of a contact's separating speeds at both ends and of its slip with respect to the velocities
+/// of its two bodies, which have the given numbers in the system.
 JamRows rows_of(const ContactConstraint& c, int a, int b) {
   const geometry::Vector n = c.normal;
   const geometry::Vector t = perpendicular(n);
@@ -440,6 +442,8 @@ JamMemory::~JamMemory() = default;
 JamMemory::JamMemory(JamMemory&&) noexcept = default;
 JamMemory& JamMemory::operator=(JamMemory&&) noexcept = default;
 
+// At kCreepSpeed, the default of CrushResponse::creep_speed, the impulse is kRigid times the effective mass times that
+// speed; its ratio to the speed is the slope of the creep branch.
 CrushResponse rigid_law(double inverse_mass) {
   return {.impulse_of_force = kCreepSpeed * kRigid / inverse_mass,
           .slope = 0,

@@ -54,6 +54,7 @@ class JamMemory {
 /// depend on the number of threads.
 bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws, std::span<SolverBody> bodies,
                double slip_speed, double residual, JamMemory& memory, int threads = 1);
+/// Solves a jam without reused memory, and keeps the constraints and bodies if it is not solved. Used by tests.
 inline bool solve_jam(std::span<ContactConstraint> constraints, std::span<const EndLaws> laws,
                       std::span<SolverBody> bodies, double slip_speed) {
   JamMemory memory;

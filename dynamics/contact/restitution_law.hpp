@@ -12,7 +12,8 @@ struct Mobility {
 };
 
 /// Returns 1 / [1/m_i + 1/m_k + (r_i × n)²/I_i + (r_k × n)²/I_k], the effective mass for an impulse along n at the
-/// contact [kg]. Eq. (5) of [Sawamura2017]. Deviation: as printed, r_i and r_k are crossed, which gains energy.
+/// contact [kg]. Eq. (5) of [Sawamura2017]. Deviation: the paper prints r_i in the term of body k and r_k in the term
+/// of body i, which gains energy.
 inline double effective_mass(const Mobility& i, const Mobility& k, geometry::Vector direction) {
   const double arm_cross_i = cross(i.arm, direction);
   const double arm_cross_k = cross(k.arm, direction);
@@ -38,8 +39,8 @@ inline double collision_impulse(double approach_speed, double restitution, doubl
 ///      work.
 ///   3. Compression again, of contacts that restitution pushed together.
 struct RestitutionLaw {
-  double restitution = 0.1;  ///< ε of Eq. (5) [-]
-  double step = 1;           ///< Δt [s]
+  double restitution = 0.1;                                  ///< ε of Eq. (5) [-]
+  double step = 1;                                           ///< Δt [s]
   static constexpr bool kHasJams = false, kRestores = true;  ///< no Newton's method; restitution after compression
 
   struct State {
@@ -62,14 +63,18 @@ inline RestitutionLaw::State state_of(const RestitutionLaw& law, const Contact& 
 /// Sets the largest impulse of each end, and raises the limit of restitution if the bodies approach faster than so far.
 void begin_substep(const RestitutionLaw& law, const ConstraintSpeeds& before, bool is_first,
                    RestitutionLaw::State& state, ContactConstraint& constraint);
+/// Returns the impulse of an end from which compression starts, predicted by the steps before [N s].
 inline double start_impulse(const RestitutionLaw& /*law*/, const RestitutionLaw::State& state,
                             const ContactConstraint& /*constraint*/, int end, bool /*is_first*/) {
   return state.record != nullptr ? state.record->restitution.start_impulse[end] : 0;
 }
+/// Returns the slip impulse from which a substep starts [N s]. It is 0 in the first one; a later one starts from
+/// the impulse at the end of the last one.
 inline double start_slip(const RestitutionLaw& /*law*/, const RestitutionLaw::State& /*state*/,
                          const ContactConstraint& constraint, bool is_first) {
   return is_first ? 0 : constraint.slip_impulse;
 }
+/// Solves the contact alone, within its bounds. Returns the largest change of a speed at the contact [m/s].
 inline double solve_block(const RestitutionLaw& /*law*/, RestitutionLaw::State& /*state*/,
                           ContactConstraint& constraint, std::span<SolverBody> solver_bodies) {
   return solve_constraint(constraint, solver_bodies);
@@ -85,6 +90,8 @@ bool restore(const RestitutionLaw& law, bool is_converged, double& stored, Resti
 inline void end_substep(const RestitutionLaw& /*law*/, const ConstraintSpeeds& /*before*/,
                         const ConstraintSpeeds& /*after*/, const ContactConstraint& /*constraint*/,
                         RestitutionLaw::State& /*state*/) {}
+/// Enters the outcome of the step into the contact and its record. A contact is at its limit if its impulse reaches
+/// F Δt up to rounding.
 inline void write_back(const RestitutionLaw& /*law*/, const RestitutionLaw::State& state,
                        const ContactConstraint& /*constraint*/, Contact& contact) {
   contact.is_at_limit = contact.total_normal_impulse() >= state.crushing_impulse * (1 - 1e-9);

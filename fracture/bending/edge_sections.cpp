@@ -126,8 +126,8 @@ double force_at_next_cracks(double widest) {
   return kSecondCracks * (1 + std::max(0.0, widest - 180 * geometry::kRadiansPerDegree));
 }
 
-/// Returns the stresses of all sections of an edge without a radial crack. `sinking` is as in
-/// weakest_section_of_sinking().
+/// Returns the stresses of all sections of an edge without a radial crack. `sinking` is the deflection w(0)/h of the
+/// tip per V/(σ_f h²) [-], as in weakest_section_of_sinking(); with 0 the tip does not sink.
 SectionStresses stresses_of_whole(const EdgeOpenings& openings, const EdgeLoad& load, double sinking) {
   SectionStresses stresses{};
   for (std::size_t i = 0; i < kSectionCount; ++i) {

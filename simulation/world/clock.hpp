@@ -19,8 +19,9 @@ struct Instant {
 struct Step {
   Instant begin;
   Instant end;
-  double length = 0;                ///< length Δt [s]
-  std::int64_t whole_ticks = 0;     ///< number of whole ticks of the run that are completed at its end
+  double length = 0;  ///< length Δt [s]
+  /// Number of whole ticks of the run that are completed at its end. Random draws of a step are seeded with it.
+  std::int64_t whole_ticks = 0;
   geometry::Vector water_velocity;  ///< mean velocity of the water frame over ground in the step [m/s]
   int threads = 1;                  ///< number of threads that compute it; results do not depend on it
 };

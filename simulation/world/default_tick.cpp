@@ -27,8 +27,8 @@ constexpr double kSpeedUnderThrust = 4;
 /// into more parts. A larger value makes ticks shorter for a few thin or very thick floes.
 constexpr double kMostIce = 0.95;
 
-/// Returns the greatest speed of a ship [m/s]: the speed at the start, or the open-water speed of its engine or the
-/// speed assumed of a constant thrust, if that is greater.
+/// Returns the greatest speed of a ship [m/s]: the speed at the start, which a prescribed ship keeps, or the open-water
+/// speed of its engine or the speed assumed of a constant thrust, if that is greater.
 double full_speed(const Ship& ship) {
   const double start = elementary::hypot(ship.speed, ship.sway_speed);
   if (const auto* engine = std::get_if<Engine>(&ship.propulsion)) return std::max(start, engine->open_water_speed);

@@ -9,12 +9,13 @@ namespace polynya::simulation {
 /// more than a quarter of kMostParts parts in 95 % of the ice by area; with the law of impulses, which has no parts, a
 /// hull stays within allowed_displacement() (parts.hpp) of that ice in a tick. No floe at its initial speed moves
 /// farther in a tick than that displacement, and no point of its rim farther than a quarter of the contact circles'
-/// radius. The tick does not depend on the end of the run, so that a run that is ended early and resumed is the same
-/// run.
+/// radius. If no number of the list satisfies all three, the intervals are ignored; if none satisfies the other two,
+/// the tick is the smallest number. The tick does not depend on the end of the run, so that a run that is ended early
+/// and resumed is the same run.
 double default_tick(const Scene& scene);
 
 /// Returns the tick without the condition on the intervals of the records [s]. It is longer than default_tick() only if
-/// an interval requires a short tick, which hints to the user report.
+/// an interval requires a short tick; the check of a scene then gives a hint.
 double tick_for_any_interval(const Scene& scene);
 
 }  // namespace polynya::simulation

@@ -10,6 +10,7 @@ using geometry::Vector;
 
 namespace {
 
+/// Returns true if a body counts in the sums: it exists, and its motion is not prescribed.
 bool counts(const dynamics::Bodies& bodies, BodyIndex i) {
   return bodies.is_alive[i] != 0 && bodies.inverse_mass[i] != 0;
 }

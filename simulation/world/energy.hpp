@@ -13,7 +13,8 @@ struct EnergyFlows {
   /// prescribed motion, fast ice included; and the kinetic energy of pieces that break off fast ice. The work of
   /// moorings is in MooringFlows.
   double thrust = 0;
-  /// Inflow: work of a sheared current that carries ice along.
+  /// Inflow: work of a sheared current that carries ice along, and the kinetic energy that it gives to pieces that
+  /// surface.
   double current = 0;
   /// Outflow: work lost to the surrounding water by drag on floes and by the water's forces on hulls and rudders, which
   /// include the inertia of the water around a ship.
@@ -46,8 +47,8 @@ struct MomentumFlows {
   /// Impulse of moorings, of contacts with bodies of prescribed motion, and the momentum of pieces that break off fast
   /// ice [N s].
   geometry::Vector held;
-  /// Impulse of the water: drag and current on floes, forces on hulls and rudders, and the pull of ice under hulls and
-  /// of cusps that hulls press down [N s].
+  /// Impulse of the water: drag and current on floes, forces on hulls and rudders, the pull of ice under hulls and of
+  /// cusps that hulls press down, and the momentum of pieces that surface [N s].
   geometry::Vector water;
   /// Momentum of ice that left the floe list, went under a hull or was put to sleep; an outflow [N s].
   geometry::Vector removed;
@@ -59,14 +60,16 @@ struct BoundaryFlows {
   /// Inflow of energy: work of the wind on floes [J].
   double wind = 0;
   /// Inflow of energy: work of the loads on walls, minus the work of the damping and of the constraint that keeps
-  /// each wall on its normal [J].
+  /// each wall on its normal [J]. It contains the change of the walls' kinetic energy in the water frame when the
+  /// frame is accelerated.
   double walls = 0;
   geometry::Vector wind_impulse;  ///< impulse of the wind on floes [N s]
-  geometry::Vector wall_impulse;  ///< impulse of the loads, the damping and the constraint on walls that press [N s]
+  geometry::Vector wall_impulse;  ///< impulse on walls that press, of everything that `walls` contains [N s]
 };
 
 /// Energy of moorings, summed over all steps [J]. What they store at an instant follows from where their ships are
-/// (stored_in_moorings, ship/mooring.hpp). All entries are 0 in a scene without moorings.
+/// (stored_in_moorings, ship/mooring.hpp); the balance therefore uses neither `taken_up` nor `given_back`, which count
+/// only in AuditSums::exchanged. All entries are 0 in a scene without moorings.
 struct MooringFlows {
   double initial = 0;     ///< energy stored before the first step
   double taken_up = 0;    ///< work that ships did on springs in steps in which these took up energy, ≥ 0
@@ -106,7 +109,8 @@ struct Audit {
   AuditSums sums;
   double kinetic_energy = 0;  ///< kinetic energy at that instant [J]
   double stored_energy = 0;   ///< energy stored in moorings at that instant [J]
-  /// Scale for the energy imbalance: the initial energy and all that was exchanged since, AuditSums::exchanged [J].
+  /// Scale for the energy imbalance: the kinetic and stored energy at the start and all that was exchanged since,
+  /// AuditSums::exchanged [J].
   double turnover = 0;
   /// Kinetic and stored energy − the same at the start − inflows + outflows; ideally 0 [J].
   double energy_imbalance = 0;
@@ -134,7 +138,8 @@ Holdings holdings(const dynamics::Bodies& bodies, double stored_energy);
 /// Sets all sums to 0 and stores energy and momentum at the start. Called once, before the first step.
 void open_accounts(const Holdings& holdings, AuditSums& sums);
 
-/// Adds the magnitude of the change of each energy flow since `before` to AuditSums::exchanged. Called after each step.
+/// Adds the magnitude of the change of each energy flow since `before` to AuditSums::exchanged. Called after each step,
+/// and after the other changes of the flows, at the start of the run and at the end of each tick.
 void enter_exchange(const AuditSums& before, AuditSums& sums);
 
 /// Adds the kinetic energy of a floe to `energy` [J] and its momentum to `momentum` [N s]. Both are members of the

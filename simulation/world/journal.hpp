@@ -29,7 +29,7 @@ struct Birth : BirthRecord {
 };
 
 /// Last shape of a floe that broke, surfaced or stays under the ice for good. Most of the children's boundaries are
-/// parts of this shape, and records of the children refer to it.
+/// parts of this shape, and the lines of the children in floes.ndjson refer to it.
 struct Death {
   FloeId floe = kNoFloe;
   geometry::Polygon polygon_in_body;  ///< outline in the body frame [m]
@@ -119,7 +119,8 @@ struct ContactState {
 };
 
 /// A peak of the force of a contact between a hull and ice: the largest force between two times at which the force was
-/// below half of it. The force is the one that the gauge of RecordSettings::peak_response shows.
+/// below half of it. The force is the one that the gauge of RecordSettings::peak_response shows, which smooths the
+/// force of each step.
 struct LoadPeak {
   double time = 0;     ///< end of the step with the largest force [s]
   ContactState state;  ///< contact in that step, with force and pressure scaled to what the gauge shows

@@ -31,7 +31,7 @@ double heap_of(const Polygon& polygon) {
          block(sizeof(Ring) * static_cast<double>(polygon.holes.size()));
 }
 
-/// Memory of one body in the columns of dynamics::Bodies [bytes].
+/// Memory of one body in the columns of dynamics::Bodies, without its pointers to its boundary and drag shape [bytes].
 constexpr double kColumns = 16 * sizeof(double) + 2 * sizeof(geometry::Vector) + sizeof(dynamics::DragSpan) + 3;
 
 /// Returns the memory of a floe at rest [bytes]: the floe's specification in the caller's scene and in the world's
@@ -72,7 +72,7 @@ class KeptCovers {
   }
 
   double bytes() const {
-    constexpr double kNodes = 0.8;  // number of nodes of the tree per piece
+    constexpr double kNodes = 0.8;  // number of nodes of a cover's tree per piece
     constexpr double kPiece =
         sizeof(geometry::PieceEdges) + sizeof(geometry::BoundingCircle) + kNodes * sizeof(geometry::CircleNode);
     const double room = std::max(0.0, dynamics::ContactRule{}.most_kept_pieces - always_);

@@ -4,7 +4,8 @@
 
 namespace polynya::simulation {
 
-/// Estimated memory of a run [bytes]. It covers the data that grow with the number and size of the scene's floes.
+/// Estimated memory of a run [bytes]. It covers the data that grow with the number and size of the scene's floes. A run
+/// whose `at_start` exceeds the available memory is refused; if only `all_moving` does, a note is printed.
 struct MemoryEstimate {
   double at_start = 0;    ///< lower bound of the memory before the first step [bytes]
   double all_moving = 0;  ///< approximate memory if every floe moves and touches its neighbours [bytes]

@@ -9,7 +9,9 @@ namespace {
 /// Returns the distance by which two bodies may approach each other in a tick, where each contributes at most kLargest
 /// [m]. The margins of the pair's boxes cover this distance (BroadPhase::update with `ahead` of a tick).
 double approach_in_tick(const dynamics::Bodies& bodies, double tick, BodyIndex a, BodyIndex b) {
-  constexpr double kLargest = 1;  // largest contribution of a body, less than the margin of its box [m]
+  // Largest contribution of a body [m]. It must not exceed the margin of a box (kBoxMargin, broad_phase.cpp); otherwise
+  // ice that has no pair with the hull is missed.
+  constexpr double kLargest = 1;
   return std::min(kLargest, tick * bodies.rim_speed[a]) + std::min(kLargest, tick * bodies.rim_speed[b]);
 }
 

@@ -8,8 +8,9 @@ namespace polynya::simulation {
 // events in it. All awake bodies take the same parts, so all of them are at the same instant after each part. With the
 // law of impulses a tick is always one step (step.cpp).
 
-/// Largest number of parts of a tick. If the ice would need more, the tick is counted (Counts::crowded_ticks) and a
-/// warning is given. A larger number would make ticks slower to compute that are chosen too long for their ship.
+/// Largest number of parts of a tick. If so much ice bends that more would be needed, the tick is counted
+/// (Counts::crowded_ticks) and a warning is given. A tick that would need more parts because of the displacement of a
+/// hull is not counted. With a larger number, ticks that are too long for their ship would take more time to compute.
 inline constexpr int kMostParts = 32;
 
 /// Largest displacement of a hull relative to ice in one step, as a fraction of the ice thickness [-]. The crushing
@@ -28,8 +29,8 @@ inline constexpr double kDisplacementOverRadius = 0.25;
 /// whose displacement in a tick is just the allowed one would need two parts wherever ice moves towards it.
 inline constexpr double kToleratedExcess = 1.1;
 
-/// Longest step of a scene with walls that press [s]. Jams between walls need more sweeps of the solver in longer
-/// steps, and some are not solved.
+/// Longest step of a scene with walls that press [s], used for Setup::longest_step_by_walls. Jams between walls need
+/// more sweeps of the solver in longer steps, and some are not solved.
 inline constexpr double kStepUnderPressure = 0.025;
 
 /// Mean number of bends in a step above which ticks are divided into twice as many parts [-]. Here and below, the bends
@@ -51,8 +52,8 @@ inline constexpr double kWeightOfLastTick = 0.125;
 double allowed_displacement(const ContactSettings& contact, double thickness);
 
 /// Returns the number of equal parts of the next tick, from 1 to kMostParts. It is the smallest number with which every
-/// hull stays within allowed_displacement() relative to the ice that it may reach in the tick, and with which steps are
-/// no longer than Setup::longest_step_by_walls; this number is multiplied by Pace::finer.
+/// hull stays within kToleratedExcess times allowed_displacement() relative to the ice that it may reach in the tick,
+/// and with which steps are no longer than Setup::longest_step_by_walls; this number is multiplied by Pace::finer.
 int parts_of_tick(const Setup& setup, const Pace& pace, const Population& population);
 
 /// Updates the pace after a tick with the given numbers of parts and of bends. Returns true if loads depend on the step

@@ -89,6 +89,7 @@ void add_scene(const Setup& setup, std::vector<FloeSpec>& floes, Population& pop
         !setup.shortcuts.sleeps)
       wake(body, population);
   }
+  // The ice of such overlaps is gone, so they must not press the bodies apart.
   for (std::size_t i = 0; i < floes.size(); ++i) {
     if (floes[i].has_crushed_overlaps) population.pairs.note_paid(population.body_of(static_cast<FloeId>(i)));
   }

@@ -45,7 +45,9 @@ struct SubmergedPiece {
   double path = 0;      ///< distance s that the ship has moved over the piece; negative if the ship backed off it [m]
   double weight = 0;    ///< net buoyancy w_t of the part within the ship's beam when the piece went under [N]
   double next_try = 0;  ///< time from which the piece may try to surface again [s]
-  double waited = 0;    ///< time that the piece, clear of the hull, has waited for space to surface [s]
+  /// Time that the piece, clear of the hull, has waited for space to surface [s]. After ResurfaceSettings::give_up the
+  /// piece stays under the ice for good.
+  double waited = 0;
   /// True for a cusp that had a PressedDeck. The force on its deck contains the bow's part of the growth with speed
   /// (Lindqvist's factor), which is therefore not added to the force of the piece again.
   bool had_deck = false;
@@ -53,7 +55,8 @@ struct SubmergedPiece {
 };
 
 /// A cusp that broke off under a ship's hull and whose edge has not reached the speed yet that the slope of the hull
-/// gives it. Members named `_in_ship` are in the ship's frame.
+/// gives it. It is removed when impulse_left or distance_left is used up. Members named `_in_ship` are in the ship's
+/// frame.
 struct AcceleratingCusp {
   int ship = 0;                         ///< number of the ship
   geometry::Vector arm_in_ship;         ///< vector from the ship's centre to the contact that broke the cusp [m]
@@ -94,7 +97,7 @@ struct Population {
   Population(const Setup& setup, std::span<const FloeSpec> floes);
 
   int hull_count = 0;                     ///< number of ships, structures and walls
-  dynamics::DragArea drag_area;           ///< reading of the drag area A of Eq. (6), from the scene
+  dynamics::DragArea drag_area;           ///< reading of the area A of Eq. (6) of [Sawamura2017]
   bool has_skin_drag = false;             ///< true if the scene has skin drag on floes
   geometry::Vector water_velocity;        ///< mean velocity of the water frame over ground in the last step [m/s]
   dynamics::Bodies bodies;                ///< bodies of the hulls in the order of the scene, then of the floes by id

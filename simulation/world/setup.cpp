@@ -55,6 +55,7 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
   }
   for (const Ship& ship : scene.ships) sailing.push_back(sailing_of(ship, scene.water.water.density));
   const ContactSettings& contact = scene.contact;
+  // In ContactRule, this law sets presses_prescribed and is_depth_bounded.
   const bool crushes = contact.law == ContactLaw::kCrush;
   contact_rule = {contact.circle_radius, contact.normal == ContactNormal::kCircleCentres, shortcuts.culls, crushes,
                   crushes};

@@ -26,7 +26,8 @@ struct Underwater {
 /// Limits of breaking that depend on the ice's material alone.
 struct IceLimits {
   double breakable_size = 0;  ///< κ l: floes with a smaller √area do not break [m]
-  /// Opening capacity of a crack that is as long and as wide as the ice is thick; smaller forces split no floe [N].
+  /// Opening capacity of a crack that is as long and as wide as the ice is thick; smaller forces split no floe, so
+  /// that no crack is searched for them [N].
   double least_splitting_force = 0;
   /// True if κ l does not exceed the characteristic length (D/ρ_w g)^¼. Slender floes with a smaller √area than κ l
   /// then break across as beams.

@@ -25,8 +25,9 @@ void enter_prescribed_work(const dynamics::Bodies& bodies, const dynamics::Conta
   audit.impulses += length(on_free);
 }
 
-/// Adds the work of all contacts to the accounts. A contact whose ice crushed (Contact::is_at_limit) while its bodies
-/// approached each other is marked as crushed.
+/// Adds the work of all contacts to the accounts. Net work that contacts gave to the bodies is a numerical error, and
+/// counts as Counts::energy_created. A contact whose ice crushed (Contact::is_at_limit) while its bodies approached
+/// each other is marked as crushed.
 void enter_contacts(const dynamics::Bodies& bodies, std::vector<dynamics::Contact>& contacts, Accounts& accounts) {
   EnergyFlows& energy = accounts.audit.energy;
   double given = 0;
@@ -60,7 +61,8 @@ void wake_pressed(const std::vector<dynamics::Contact>& contacts, Population& po
   }
 }
 
-/// Returns true if more than half of the smaller body of a contact lies within the other.
+/// Returns true if more than half of the smaller body of a contact lies within the other. One body then passes through
+/// the other (Counts::passing_steps).
 bool is_passing(const Setup& setup, const Population& population, const dynamics::Contact& c) {
   const auto area_of = [&](BodyIndex body) {
     return population.is_hull(body) ? setup.waterlines[static_cast<std::size_t>(body)].area
@@ -317,7 +319,7 @@ constexpr double kCutThroughInterval = 0.25;
 /// ship breaks has no motion and no contact most of the time. With a short interval, the plate would fall asleep
 /// between its contacts, lose its pairs with the floes around it, and search for them again. With a long interval,
 /// floes at rest stay awake, which costs time. By the law of impulses, floes are put to sleep in every tick, as in the
-/// replicas of the paper.
+/// repetitions of the runs of [Sawamura2017].
 constexpr double kRestInterval = 1;
 
 }  // namespace
@@ -361,7 +363,8 @@ bool takes_parts(const Setup& setup) {
   return setup.scene.contact.law == ContactLaw::kCrush && setup.shortcuts.takes_parts;
 }
 
-/// Returns the number of parts of the next tick, and updates the pairs of bodies for the whole tick.
+/// Returns the number of parts of the next tick. Before that it updates the pairs of bodies for the whole tick, because
+/// the number depends on the ice that a hull may reach in the tick.
 int next_parts(World& world) {
   const Setup& setup = world.setup;
   if (!takes_parts(setup)) return 1;

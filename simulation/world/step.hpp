@@ -17,8 +17,8 @@ namespace polynya::simulation {
 
 // ---- before the contacts
 
-/// Sets levers and steering to the commands of the pilots at the start of a run, and initializes the memory of the
-/// pilots.
+/// Sets levers and steering of ships with an engine to the commands of the scene's pilots at the start of a run, and
+/// initializes the memory of the pilots.
 void initialize_helms(const Setup& setup, const Step& step, Population& population);
 
 /// Gives the water frame its mean velocity over the step. The frame is accelerated when the drift changes. Bodies of
@@ -26,22 +26,25 @@ void initialize_helms(const Setup& setup, const Step& step, Population& populati
 /// because the slope of the water surface that accelerates the water also accelerates them.
 void follow_water(const Setup& setup, const Step& step, Population& population, AuditSums& audit);
 
-/// Calls the pilots, and moves levers and steering towards their commands. `external` are pilots from outside, by ship.
+/// Calls the pilots, and moves levers and steering towards their commands, no faster than their rates allow. `external`
+/// are pilots from outside, by ship; they replace the pilots of the scene.
 void steer(const Setup& setup, const Step& step, const std::vector<ExternalPilot>& external, Population& population);
 
 /// Accelerates the walls that press by their loads. It is done before the contacts are solved, so that the ice resists
 /// within the same step.
 void press_walls(const Setup& setup, const Step& step, Population& population, AuditSums& audit);
 
-/// Stores the ships' motion before the step's impulses, and the places of all hulls.
+/// Stores the ships' motion before the step's impulses, from which sail() takes the part of the added mass, and the
+/// poses of all hulls, from which records find the place of a contact on the waterline.
 void store_motion(const Population& population, StepData& data);
 
 // ---- contacts and their impulses
 
-/// Updates the pairs of bodies that are near each other.
+/// Updates the pairs of bodies that are near each other at the start of the step.
 void find_pairs(const Step& step, Population& population);
 
-/// Finds the contacts of all pairs.
+/// Finds the contacts of all pairs, the contacts that have ended (StepData::parted), and the overlaps that no contact
+/// can separate (StepData::inseparable_overlaps).
 void find_contacts(const Step& step, Population& population, StepData& data, Counts& counts);
 
 /// Law of crushing ice: sets the crushing force of each contact, the limits of its force, and the force at which its
@@ -49,7 +52,7 @@ void find_contacts(const Step& step, Population& population, StepData& data, Cou
 void decide_by_crushing(const Setup& setup, const Step& step, const Population& population, StepData& data);
 
 /// Law of impulses: sets the limit of each contact's force, and decides by the collision force j/τ_c whether its ice
-/// breaks.
+/// breaks. j is the impulse of the collision, and τ_c is its assumed duration.
 void decide_by_collision(const Setup& setup, const Step& step, const Population& population, StepData& data);
 
 /// Reduces the forces of contacts that press floes down to the largest force with which the floes resist while the
@@ -66,7 +69,7 @@ void solve_collisions(const Setup& setup, const Step& step, Population& populati
 /// Removes all velocity of walls that press that is not along their normals.
 void constrain_walls(const Setup& setup, Population& population, AuditSums& audit);
 
-/// Law of crushing ice: removes the bends whose contacts were not loaded up to V_b.
+/// Law of crushing ice: removes the bends whose contacts were not loaded up to V_b, the force at which their ice bends.
 void drop_unreached_bends(StepData& data);
 
 /// Adds the splits by the true forces of the step to its fractures, and enters the true forces into the criteria of its
@@ -82,7 +85,8 @@ std::optional<std::string> overload_of(const Setup& setup, const Step& step, con
 void tilt_floes(const Setup& setup, const Step& step, Population& population, StepData& data);
 
 /// Law of crushing ice: adds the growth of each paid overlap in the step to the contact's account (dynamics::Booked).
-/// Growth that work has paid counts as crushed; growth where the ice edge gave way counts as tilted.
+/// An overlap is paid if its ice is gone. Growth that work has paid counts as crushed; growth where the ice edge gave
+/// way counts as tilted.
 void book_overlaps(const Setup& setup, const Step& step, const Population& population, const StepData& data);
 
 /// Adds the impulses of contacts to the loads of the hulls in the step.
@@ -91,10 +95,11 @@ void tally_loads(const Population& population, const std::vector<dynamics::Conta
 
 // ---- forces and motion
 
-/// Applies the drag of the water and of the wind to all awake bodies.
+/// Applies the drag of the water and the stress of the wind to all awake floes. The water's forces on hulls are applied
+/// by sail().
 void apply_forces(const Setup& setup, const Step& step, Population& population, AuditSums& audit);
 
-/// Gives ships their constant thrust, and the forces from outside, if any [N, N m].
+/// Gives ships their constant thrust and, if there are any, the forces from outside in each ship's frame [N, N m].
 void push_ships(const Setup& setup, const Step& step, std::span<const dynamics::Planar> external_forces,
                 Population& population, AuditSums& audit);
 
@@ -154,8 +159,8 @@ void sum_loads(const Step& step, const StepData& data, Accounts& accounts);
 /// sheared current would move. Fast ice that moves stays awake.
 void put_to_rest(const Setup& setup, const StepData& data, Population& population, AuditSums& audit);
 
-/// Adds a sample for each hull and each loaded panel to the journal, and starts new sums. Impulses that are not booked
-/// yet (CarriedLoad) are kept for the next interval.
+/// Adds a sample for each hull and each loaded panel to the journal, and starts new sums. Impulses that contacts missed
+/// before they were found and that are not booked yet (CarriedLoad) are kept for the next interval.
 void sample_loads(const Setup& setup, const Clock& clock, const Population& population, Books books);
 
 /// A stage of a step: its name, and a function that calls it with the parts of the world that it needs.

@@ -196,7 +196,7 @@ struct World {
   StepData data;
   Accounts accounts;
   Journal journal;
-  std::vector<ExternalPilot> pilots;  ///< pilots from outside for each ship; empty if there are none
+  std::vector<ExternalPilot> pilots;  ///< pilots from outside for each ship, not saved; empty if there are none
   /// Force and moment from outside on each ship, in the ship's frame [N, N m]; empty if there are none. They are not
   /// part of the saved state, so the caller sets them again after a resume.
   std::vector<dynamics::Planar> external_forces;

@@ -29,9 +29,10 @@ auto guarded(Work work) -> decltype(work()) {
   }
 }
 
-/// The general path: CGAL overlays the whole shape and the tool exactly. It handles every valid input and takes tens of
-/// milliseconds for thousands of vertices. The caller has checked that the arguments are valid. A failure of CGAL is
-/// returned as kInternal.
+/// The general path: CGAL overlays the whole shape and the tools exactly. It handles every valid input and takes tens
+/// of milliseconds for thousands of vertices. It is used for several tools, tools with holes, polylines that cross
+/// themselves, and where the local path does not handle the case. The caller has checked that the arguments are valid.
+/// A failure of CGAL is returned as kInternal.
 CutOutcome cut_by_polygons_generally(const exact::Polygon& shape, const std::vector<Polygon>& tools_in_body);
 CutOutcome cut_along_generally(const exact::Polygon& shape, const std::vector<std::vector<Point>>& polylines_in_body);
 
@@ -49,10 +50,13 @@ struct Tool {
 
 /// The local path. It finds where the tool touches or crosses the boundary by exact predicates, rebuilds only the
 /// chains between these nodes, rounds only the nodes, and validates only the edges that end in a rounded node. Its
-/// result equals the result of the general path. Returns nullopt if it does not handle the case (rings that touch each
-/// other where they are cut, or in a floe of which several rings are cut; rounded nodes so near a ring that its place
-/// is in doubt; a closed tool without a chord on which all vertices of the shape's outer ring lie). The shape must be
-/// valid; the tool must be a simple counter-clockwise ring or a simple open polyline.
+/// result equals the result of the general path. Throws OverlayFailure if CGAL refuses to round the nodes. Returns
+/// nullopt if it does not handle the case:
+///   - rings touch each other where they are cut, or in a floe of which several rings are cut,
+///   - a hole is so near edges that rounding moves that it is in doubt which piece the hole belongs to,
+///   - a closed tool touches the ice without crossing it, and all vertices of the shape's outer ring lie on the tool's
+///     boundary, so that no vertex shows which of the two encloses the other.
+/// The shape must be valid; the tool must be a simple counter-clockwise ring or a simple open polyline.
 std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool);
 
 }  // namespace polynya::geometry
