@@ -1,6 +1,7 @@
 #include "simulation/world/memory_estimate.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "geometry/contact/near_boundaries.hpp"
 #include "geometry/exact/measures.hpp"
@@ -31,8 +32,9 @@ double heap_of(const Polygon& polygon) {
          block(sizeof(Ring) * static_cast<double>(polygon.holes.size()));
 }
 
-/// Memory of one body in the columns of dynamics::Bodies, without its pointers to its boundary and drag shape [bytes].
-constexpr double kColumns = 16 * sizeof(double) + 2 * sizeof(geometry::Vector) + sizeof(dynamics::DragSpan) + 3;
+/// Memory of one body in the columns of dynamics::Bodies [bytes]; the last two point to its boundary and drag shape.
+constexpr double kColumns = 16 * sizeof(double) + 2 * sizeof(geometry::Vector) + sizeof(dynamics::DragSpan) + 3 +
+                            2 * sizeof(std::shared_ptr<geometry::Boundary>);
 
 /// Returns the memory of a floe at rest [bytes]: the floe's specification in the caller's scene and in the world's
 /// copy, the floe itself, its birth in the journal, its body and its outline. Three polygons count, because the polygon

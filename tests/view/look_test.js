@@ -12,13 +12,36 @@ before(async () => {
   await page.act("goToEnd", true);
 });
 
-/** The scripts' own functions, without a page. */
-function scripts(...names) {
-  const context = vm.createContext({});
+/** The scripts' own functions, without a page; `globals` are what they take from the browser. */
+function scriptsWith(globals, ...names) {
+  const context = vm.createContext(globals);
   for (const name of names) vm.runInContext(fs.readFileSync(path.join(__dirname, "../../views/player", name), "utf8"),
     context);
   return context;
 }
+const scripts = (...names) => scriptsWith({}, ...names);
+
+/** The edges that a path draws, by the rules of the canvas: after closePath() the pen is at the first point of the part
+ * that was closed, and lineTo() without a pen only puts it down. */
+class EdgesOfPath {
+  edges = [];
+  moveTo(...point) { this.first = this.pen = point; }
+  lineTo(...point) {
+    if (this.pen && `${this.pen}` !== `${point}`) this.edges.push([this.pen, point]);
+    this.first ??= point;
+    this.pen = point;
+  }
+  closePath() { this.lineTo(...this.first); }
+}
+
+test("the outline of a floe has the edges of its rings and no others", () => {
+  const { makeOutlines } = scriptsWith({ Path2D: EdgesOfPath }, "draw_ice.js");
+  const rings = [[[0, 0], [9, 0], [9, 9], [0, 9]], [[1, 1], [1, 3], [3, 3]], [[5, 5], [5, 7], [7, 7], [7, 5]]];
+  const floes = { ringsOf: [0, 3], ringEnds: [4, 7, 11], cx: [2], cy: [1], shape: () => rings.flat(2) };
+  const edges = rings.flatMap((ring) => ring.map((from, k) =>
+    [from, ring[(k + 1) % ring.length]].map(([x, y]) => [x - 2, y - 1])));
+  assert.deepEqual(makeOutlines({ floes })(0).edges, edges);
+});
 
 test("untouched floes, what is left of a plate, and cusps have the colours that the legend gives them", async () => {
   const births = readNdjson(run, "floes.ndjson");

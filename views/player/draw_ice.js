@@ -10,6 +10,7 @@ function makeOutlines({ floes }) {
     const points = floes.shape(id);
     let k = 0;
     for (let ring = floes.ringsOf[id]; ring < floes.ringsOf[id + 1]; ++ring) {
+      outline.moveTo(points[k] - floes.cx[id], points[k + 1] - floes.cy[id]);
       for (const end = 2 * floes.ringEnds[ring]; k < end; k += 2)
         outline.lineTo(points[k] - floes.cx[id], points[k + 1] - floes.cy[id]);
       outline.closePath();
