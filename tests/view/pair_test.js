@@ -115,6 +115,16 @@ test("a link has the instant and a floe of each", async () => {
   const other = await open(page.url().replace("file://", ""));
   assert.deepEqual(await other.evaluate(() => [window.polynyaPair.clock.time,
     ...window.polynyaPair.players.map(({ state }) => state.selected)]), [7.5, 0, 1]);
+  // Another link selects another floe of the second run; the plots that both links name stay.
+  const plots = () => other.evaluate(() => window.polynyaPair.players.map(({ plotPanel }) => plotPanel.further()));
+  const quantity = await other.evaluate(() => Object.keys(window.polynyaPair.players[0].plot.quantities)[1]);
+  for (const floe of [1, 0]) {
+    await other.evaluate((link) => { location.hash = link; },
+      `t=7.5&floe=0&below=${encodeURIComponent(quantity)}&floe2=${floe}`);
+    await other.waitForFunction((k) => window.polynyaPair.players[1].state.selected === k, floe);
+    await other.evaluate(() => new Promise((done) => { setTimeout(done, 300); })); // share() runs at each refresh
+    assert.deepEqual(await plots(), [[quantity], [quantity]]);
+  }
   await other.context().close();
 });
 

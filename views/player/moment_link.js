@@ -89,16 +89,22 @@ const momentWords = {
   },
 };
 
-/** Goes to the instant of a link. Returns messages about parts that were not understood. Further plots are removed
- * first, because each `below` adds one; all other settings that the link does not name stay. */
-function goToMoment(player, link) {
+/** Applies the parameters of a link (URLSearchParams). Returns messages about parts that were not understood. Settings
+ * that the link does not name stay. */
+function applyWords(player, words) {
   const problems = [];
-  player.actions.showPlots([]);
-  for (const [key, text] of new URLSearchParams(link.replace(/^#/, ""))) {
+  for (const [key, text] of words) {
     const problem = Object.hasOwn(momentWords, key) ? momentWords[key](player, text) : "unknown";
     if (problem) problems.push(`${key}=${text}: ${problem}`);
   }
   return problems;
+}
+
+/** Goes to the instant of a link, as applyWords() does. Further plots are removed first, because each `below` adds one.
+ * */
+function goToMoment(player, link) {
+  player.actions.showPlots([]);
+  return applyWords(player, new URLSearchParams(link.replace(/^#/, "")));
 }
 
 /** Address of this page with these parameters. */

@@ -13,7 +13,8 @@ function goToMomentOfPair([first, second], link) {
   const words = new URLSearchParams(link.replace(/^#/, ""));
   const ofSecond = words.get("floe2");
   words.delete("floe2");
-  return [...goToMoment(first, words.toString()), ...(ofSecond === null ? [] : goToMoment(second, `floe=${ofSecond}`))];
+  const problems = goToMoment(first, words.toString());
+  return ofSecond === null ? problems : [...problems, ...applyWords(second, [["floe", ofSecond]])];
 }
 
 // Two runs side by side. Each has its own player in a frame. This script has their common clock and their common
