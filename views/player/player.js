@@ -118,7 +118,8 @@ function startDrawing(player, canvases) {
 /** Reads the run, and adds data that several parts use. `breakOf` has, for each floe, the index of the event that ended
  * it; a rejected cut does not end a floe, nor does going under a hull. The colours of the floe's pieces and its card
  * depend on that event. `moorings` tells when moorings broke, and `carry` moves points with the water from one time to
- * another. `under` counts the floes that went under hulls. */
+ * another. `under` counts the floes that
+ * went under hulls, and `outline` gives the path of a floe. */
 function readPlayedRun(source) {
   const run = readRun(source);
   run.breakOf = new Map();
