@@ -62,7 +62,7 @@ function valueWords(value, base, isSteady = false) {
 
 const metresPerSecondOfKnot = 1852 / 3600;
 
-/** Speed of a ship in both units in use, m/s and knots, for its card and for the text at the pointer. The knots have at
+/** Speed of a ship in both units in use, m/s and knots, for its card and for the chip on the map. The knots have at
  * most two decimals. */
 const shipSpeedWords = (speed) =>
   `${valueWords(speed, "m/s")} (${fourDigits(Number((speed / metresPerSecondOfKnot).toFixed(2)))} kn)`;

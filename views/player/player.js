@@ -7,7 +7,8 @@ const eventCounts = { bends: "bend", splits: "split", ground: "grind", "rejected
   "went under": "submerge", "came up": "resurface", "stayed under": "stay_under", "moorings broken": "mooring_break" };
 
 /** Fills the panel with the numbers of the whole run. A page that contains only a part of the floes or frames shows
- * both numbers, such as "20 of 300". If ice went under hulls, rows with the present numbers stand above. */
+ * both numbers, such as "20 of 300"; written with `--area`, it counts only the events of its floes. If ice went under
+ * hulls, rows with the present numbers stand above. */
 function fillFacts({ run: { info, floes }, name, plan }) {
   const ofRun = (held, all) => (held === all ? held : `${held} of ${all}`);
   const counts = Object.entries(eventCounts).map(([words, kind]) =>
@@ -118,8 +119,7 @@ function startDrawing(player, canvases) {
 /** Reads the run, and adds data that several parts use. `breakOf` has, for each floe, the index of the event that ended
  * it; a rejected cut does not end a floe, nor does going under a hull. The colours of the floe's pieces and its card
  * depend on that event. `moorings` tells when moorings broke, and `carry` moves points with the water from one time to
- * another. `under` counts the floes that
- * went under hulls, and `outline` gives the path of a floe. */
+ * another. `under` counts the floes that went under hulls, and `outline` gives the path of a floe. */
 function readPlayedRun(source) {
   const run = readRun(source);
   run.breakOf = new Map();
