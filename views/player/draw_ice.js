@@ -1,4 +1,5 @@
-// Draws the ice on the map. Each floe is a path of the browser; floes that hardly move are kept as a picture.
+// Draws the ice on the map. Each floe is a path of the browser; floes that hardly move are kept as a picture. The page
+// that runs a simulation (browser/page) draws its floes with the functions of this file, but without that picture.
 
 /** Returns a function that gives the outline of a floe as a path in its body frame, relative to its centroid [m]. An
  * outline is made when it is first needed and then kept. Holes run clockwise, so filling leaves them open. */
@@ -102,7 +103,7 @@ function drawFloes(context, view, run, places, ids, look) {
   }));
 }
 
-/** Draws the floes of the scene at their initial places, so that open water shows where ice was. A floe that has moved
+/** Draws the floes of startPlaces() where they were then, so that open water shows where ice was. A floe that has moved
  * by less than 0.3 px is left out, because it covers its place. */
 function drawStartIce(context, view, run, start, places, time, colours) {
   context.fillStyle = colours["start-ice"];
@@ -114,7 +115,8 @@ function drawStartIce(context, view, run, start, places, time, colours) {
   onMap(context, view, {}, () => seen.forEach((id) => drawFloe(context, view, run, start, id, "fill")));
 }
 
-/** Places of the floes at the start of the run. */
+/** Places of the floes that float at a time. The player passes the time of the first frame on its page, which is later
+ * than the start of the run if the page was written with `--from`. */
 function startPlaces(run, motions, time) {
   const start = makePlaces(run, motions);
   start.setTime(time);
@@ -130,7 +132,8 @@ function startPlaces(run, motions, time) {
 // number makes each refresh draw more floes; a smaller one makes the picture anew more often.
 const mostLoose = 1000;
 
-/** Returns drawAll(), which draws the floating ice with such a picture. */
+/** Returns drawAll(), which draws the floating ice with such a picture. Between its floes the picture is transparent,
+ * so that the ice at the start and the channel below it stay visible. */
 function makeStillIce(run, places, motions) {
   const { floes, frames: { times } } = run;
   const canvas = make("canvas");

@@ -7,7 +7,7 @@ function floeAt(run, places, x, y) {
   return found >= 0 ? found : floeAmong(run, places, places.under, x, y);
 }
 
-// A canvas that is not shown; it tests whether a point is inside an outline.
+// A canvas that is not shown; it tests whether a point is inside an outline. Points in holes are outside.
 const probe = make("canvas").getContext("2d");
 
 /** Id of the smallest of some floes that contain a point of the world; −1 if none does. */
@@ -89,8 +89,8 @@ function showFloeCard(host, run, places, motions, chosen, id, time, actions) {
 // listed, because the list would hide the rest of the panel.
 const longestLineage = 8;
 
-/** Links to the ancestors of a floe and to the floe itself, each with the event that ended it (a fracture, or
- * surfacing), and to its pieces. */
+/** Links to the ancestors of a floe and to the floe itself, each with the event that ended it (a fracture, surfacing,
+ * or staying under the ice), and to its pieces. */
 function lineageList(run, id, actions) {
   const { floes, info } = run;
   const breaks = run.breakOf;
@@ -133,8 +133,9 @@ function eventValue(key, value, unit) {
   return unit ? valueWords(value, unit) : String(value) || "\u2013";
 }
 
-/** Returns the fields of an event that have labels, including those of its criterion. If the criterion is a rule such
- * as "load >= capacity", the two sides of the rule are the labels of its load and its capacity. */
+/** Returns the fields of an event that have labels (io::event_fields()), including those of its criterion. If the
+ * criterion is a rule such as "load >= capacity", the two sides of the rule are the labels of its load and its
+ * capacity. */
 function eventRows({ event_labels: labels }, { criterion = {}, ...event }) {
   const { kind: rule = "", ...sides } = criterion;
   const [, load, capacity] = /^(.+) >=? (.+)$/.exec(rule) ?? [];
@@ -156,11 +157,12 @@ function showEventCard(host, run, event) {
   host.replaceChildren(list);
 }
 
-// The selected floe, or the floe under the pointer: its card, and its text on the map.
+// The selected floe, or the floe under the pointer: its card, and a line of text in the top left corner of the map, the
+// chip.
 
-/** Returns functions for the shown floe. showCard() updates the card when floe or time change, or when `cardIsStale`
- * reports another selection. While the run plays it leaves the card alone if one of its links has the focus, because
- * the focus would be lost. After a pause the card then stays as it is until floe or time change. */
+/** Returns functions for the shown floe. showCard() updates the card and the chip when floe or time change, or when
+ * `cardIsStale` reports another selection. While the run plays it leaves both alone if a link of the card has the
+ * focus, because the focus would be lost. After a pause the card then stays as it is until floe or time change. */
 function makeShownFloe(player) {
   const { run, state, places, motions } = player;
   let cardShown = "";

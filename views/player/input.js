@@ -20,13 +20,11 @@ function wheelTurn({ deltaY, deltaMode, ctrlKey }) {
   return (deltaMode === 1 ? 33 * deltaY : deltaY) * (ctrlKey ? 0.01 : 0.0015);
 }
 
-/**
- * Tracks the pointers that are pressed on an element; of a mouse only its main button. Positions `at` are in pixels of
- * the element. It calls `start(event, at, count)` when a pointer is pressed, as one of `count`, `drag(at, before)` when
- * a single pressed pointer moves, `pinch(after, before)` when one of two moves, and `end(event, at)` when the last is
- * lifted or the browser cancels it. `hover(event, at)` is called for every move, pressed or not. Moves of three or more
- * pressed pointers neither drag nor pinch.
- */
+/** Tracks the pointers that are pressed on an element (map, plot, timeline, histogram); of a mouse only its main
+ * button. Positions `at` are in pixels of the element. It calls `start(event, at, count)` when a pointer is pressed, as
+ * one of `count`, `drag(at, before)` when a single pressed pointer moves, `pinch(after, before)` when one of two moves,
+ * and `end(event, at)` when the last is lifted or the browser cancels it. `hover(event, at)` is called for every move,
+ * pressed or not. Moves of three or more pressed pointers neither drag nor pinch. */
 function watchPointers(element, { start, drag, pinch, hover, end }) {
   const pressed = new Map(); // pointer id → [x, y]
   element.addEventListener("pointerdown", (event) => {
@@ -107,8 +105,8 @@ function watchControls(actions) {
     const words = () => (control.tagName === "SELECT" ? [control.value] : given ? [Number(given) || given] : []);
     control.addEventListener(control.tagName === "BUTTON" ? "click" : "change", () => actions[name](...words()));
   }
-  // A control that was used by a pointer returns the focus to the page, so that Space plays. A control reached by keys
-  // keeps it.
+  // A button, check box or radio button that was used by a pointer returns the focus to the page, so that Space plays.
+  // A control reached by keys keeps it, and so do lists and number fields.
   let isByPointer = false;
   const giveBack = () => isByPointer && document.activeElement.closest("button, input:not([type=number])")?.blur();
   for (const name of ["pointerdown", "keydown"])
@@ -125,8 +123,10 @@ function isForControl({ target, key }) {
 }
 
 /** Connects the keys: W, A, S and D move the camera up, left, down and right by 60 px; arrows step by one frame, or
- * with Shift by ten; < and > choose the next lower or higher rate of playback; Escape closes or deselects (letGo()).
- * Keys of controls take precedence. Keys with Ctrl, Meta or Alt belong to the browser. */
+ * with Shift by ten; < and > choose the next lower or higher rate of playback; I saves the map, with Shift the plot;
+ * Escape closes or deselects (letGo()). Keys in `data-keys` replace those here. A capital letter without an action of
+ * its own acts as the small one. If the control with the focus needs a key (isForControl()), the key does nothing else.
+ * Keys with Ctrl, Meta or Alt belong to the browser. */
 function watchKeys(actions) {
   const keys = {
     ArrowLeft: ({ shiftKey }) => actions.stepFrames(shiftKey ? -10 : -1),

@@ -13,7 +13,7 @@ function make(tag, attributes = {}, ...children) {
 /** A count with its noun: "1 floe", "2 floes". */
 const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 
-/** A number as text with a true minus sign. */
+/** A number as text with a true minus sign instead of a hyphen at its start. */
 const minus = (text) => text.replace(/^-/, "\u2212");
 
 // Numbers for people: four digits, in a unit that suits the value, with spaces between thousands. A value that is so
@@ -31,8 +31,8 @@ const unitScales = {
 };
 const otherScale = { larger: [], least: 1e-4 };
 
-/** Unit in which a value is shown: its name, and the factor from the base unit. A value that four digits round up to
- * the next unit has that unit. */
+/** Unit in which a value, or an axis of a plot up to that value, is shown: its name, and the factor from the base unit.
+ * A value that four digits round up to the next unit has that unit: 999.96 kN is shown as 1 MN. */
 function unitFor(value, base) {
   const { larger } = unitScales[base] ?? otherScale;
   const [, name, size] = larger.map(([from, word, step = from]) => [from, word, step])
@@ -62,17 +62,20 @@ function valueWords(value, base, isSteady = false) {
 
 const metresPerSecondOfKnot = 1852 / 3600;
 
-/** Speed of a ship in both units in use, m/s and knots; the knots have at most two decimals. */
+/** Speed of a ship in both units in use, m/s and knots, for its card and for the chip on the map. The knots have at
+ * most two decimals. */
 const shipSpeedWords = (speed) =>
   `${valueWords(speed, "m/s")} (${fourDigits(Number((speed / metresPerSecondOfKnot).toFixed(2)))} kn)`;
 
-/** Largest of 1, 2, 5 × 10ⁿ that is at most `room`: the length of a scale bar, or a limit of a class of colours. */
+/** Largest of 1, 2, 5 × 10ⁿ that is at most `room`, which must be positive: the length of a scale bar or of an arrow in
+ * the legend, or a limit of a class of colours. */
 function roundBelow(room) {
   const decade = 10 ** Math.floor(Math.log10(room));
   return decade * (room >= 5 * decade ? 5 : room >= 2 * decade ? 2 : 1);
 }
 
-/** A number of a running text, such as a floe size or a wind speed, with at most three significant digits. */
+/** A number of a running text, such as a floe size or a wind speed, with at most three significant digits, a hyphen as
+ * minus sign and no spaces. */
 const shortNumber = (value) => String(Number(value.toPrecision(3)));
 
 /** Sets the size of a canvas [px] and clears it. Returns the number of its own pixels per pixel of the page, at most 2

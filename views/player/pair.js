@@ -20,8 +20,9 @@ function goToMomentOfPair([first, second], link) {
 // Two runs side by side. Each has its own player in a frame. This script has their common clock and their common
 // settings.
 
-/** Returns the page of run `k`, made from its data in this page. `axis_s` is the range of times that the axes of both
- * runs show [s]. */
+/** Returns the page of run `k`, made from its data in this page. The data are removed from this page, to save memory.
+ * `axis_s` is the range of times that the axes of both runs show [s]. The character `<` is escaped in the options,
+ * because it could end the script element that contains them. */
 function pageOfRun(template, { labels, axis_s }, k) {
   const take = (id) => {
     const text = byId(id).textContent;
@@ -46,8 +47,9 @@ function openPlayers() {
   })));
 }
 
-/** Makes the common clock, which replaces the clocks of both players. A run that ends earlier stays at its end; with
- * `isOver` its map says so. */
+/** Makes the common clock, which replaces the clocks of both players. A run that ends earlier stays at its end, because
+ * its own clock does not go beyond it; with `isOver` its map says so. Each player also gets the speed of playback, by
+ * which its map decides how often to redraw ice at rest (makeIcePicture()). */
 function makePairClock(players) {
   const clock = makeClock(players[0].axis, () => {
     byId("now").textContent = `${clock.time.toFixed(1)} s`;
@@ -78,7 +80,7 @@ function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, sp
 
 /** Settings that both players share: `of` reads one from a player, `give` applies it to another. A setting is shared
  * while `isOn` returns true, or always without it. Changes that are made while `isOn` returns false are not shared
- * later. */
+ * later. Each player keeps its own selection of floe, ship and event, and its own ruler. */
 const common = {
   colours: { of: ({ state }) => state.colourBy, give: ({ actions }, by) => actions.colourBy(by) },
   layers: { of: ({ state }) => state.layers, give: ({ actions }, layers) =>
@@ -105,7 +107,7 @@ const common = {
 function makeCommon(players) {
   const known = {}; // the setting of both players when it was last shared, as JSON
   const wordsOf = ({ of }) => players.map((player) => JSON.stringify(of(player)));
-  // Makes each plot use the scale of the other.
+  // Makes both plots use a common scale if the check box for it is on.
   const show = () => players.forEach(({ plot }) => plot.show(...plot.span));
   const give = (name, from) => {
     const thing = common[name];
@@ -127,7 +129,7 @@ function makeCommon(players) {
 }
 
 /** Gives both players the same extent of the map, the same scales of plots and arrows, and the same classes of colours.
- * */
+ * The plots share a scale only while they show the same quantity and the check box for it is on. */
 function joinScales(players) {
   const scales = Object.fromEntries(["forceScale", "arrowScale"].map((name) =>
     [name, Math.min(...players.map((player) => player[name]))]));
@@ -151,7 +153,8 @@ function joinScales(players) {
   });
 }
 
-/** Moves to the next or previous event of either run that has a mark on the timeline. */
+/** Moves to the next or previous event of either run that has a mark on the timeline. An event of the other run at the
+ * same time is passed over. */
 function stepEvent(players, clock, step) {
   const found = players.map(({ actions, run }) => {
     const index = actions.eventFrom(clock.time, step);

@@ -2,11 +2,13 @@
 
 // Text and controls of the page.
 
-/** Kinds of events that the panel counts, by the words for them. */
+/** Kinds of events that the panel counts, by the words that it shows for them. */
 const eventCounts = { bends: "bend", splits: "split", ground: "grind", "rejected cuts": "rejected_cut",
   "went under": "submerge", "came up": "resurface", "stayed under": "stay_under", "moorings broken": "mooring_break" };
 
-/** Fills the panel with the numbers of the whole run. */
+/** Fills the panel with the numbers of the whole run. A page that contains only a part of the floes or frames shows
+ * both numbers, such as "20 of 300"; written with `--area`, it counts only the events of its floes. If ice went under
+ * hulls, rows with the present numbers stand above. */
 function fillFacts({ run: { info, floes }, name, plan }) {
   const ofRun = (held, all) => (held === all ? held : `${held} of ${all}`);
   const counts = Object.entries(eventCounts).map(([words, kind]) =>
@@ -28,7 +30,8 @@ function fillFacts({ run: { info, floes }, name, plan }) {
   if ("went under" in facts) byId("facts").prepend(...rowsUnderHulls());
 }
 
-/** Options of the list of quantities. Forces by cause are a separate group. */
+/** Options of the list of quantities that a plot can show. Forces by cause, which are drawn as stacked areas,
+ * are a separate group. */
 function quantityGroups(quantities) {
   return [[false, "Quantities"], [true, "Stacked areas"]].flatMap(([stacks, label]) => {
     const group = Object.entries(quantities).filter(([, { isStack = false }]) => isStack === stacks);
@@ -37,8 +40,8 @@ function quantityGroups(quantities) {
   });
 }
 
-/** Fills the page and connects its controls. Playback starts at the first speed of the list at which the run takes at
- * most 40 s. */
+/** Fills the page and connects its controls. Playback starts at the slowest speed of the list at which the run takes at
+ * most 40 s, or at the fastest one if there is none. */
 function fillPage(player) {
   const { run: { info, frames }, range, name, isOneOfTwo, axis, state, actions } = player;
   byId("scene").textContent = name;
@@ -79,9 +82,10 @@ function showNumbers({ run, state, places, plotPanel, sizePanel, timeline }) {
   timeline.setTime(state.time, `${words}, ${counted(places.count, "floe")}`);
 }
 
-/** Draws at each refresh of the screen what has changed, and advances the clock of the player; of two runs side by side
- * only their common clock runs. Tests wait for `drawn`, the number of pictures of the ice.
- * tools/measure_player.js reads `drawTimes`, the time that each took [ms]; the list is emptied at 2000 to limit it. */
+/** Draws at each refresh of the screen what has changed, and advances the clock of the player while it plays. The
+ * clocks of two runs side by side never play; the common clock of pair.js sets their time. Tests wait for `drawn`, the
+ * number of pictures of the ice. tools/measure_player.js reads `drawTimes`, the time that each took [ms]; the list is
+ * emptied at 2000 to limit it. */
 function startDrawing(player, canvases) {
   const { state, view, places, motions } = player;
   const drawIce = makeIcePicture(player, canvases[0]);
@@ -113,8 +117,9 @@ function startDrawing(player, canvases) {
 // Assembly of the player.
 
 /** Reads the run, and adds data that several parts use. `breakOf` has, for each floe, the index of the event that ended
- * it; a rejected cut does not end a floe, nor does going under a hull. `moorings` tells when moorings broke, `carry`
- * moves points with the water. */
+ * it; a rejected cut does not end a floe, nor does going under a hull. The colours of the floe's pieces and its card
+ * depend on that event. `moorings` tells when moorings broke, and `carry` moves points with the water from one time to
+ * another. `under` counts the floes that went under hulls, and `outline` gives the path of a floe. */
 function readPlayedRun(source) {
   const run = readRun(source);
   run.breakOf = new Map();
@@ -133,8 +138,9 @@ function readPlayedRun(source) {
 const readOptions = () => JSON.parse(byId("page-options").textContent);
 
 /** State of the page when it opens. Indices are −1 if nothing is chosen. `iceDirty` is set when all must be drawn
- * again, `marksDirty` when only the marks above the ice must. The channel is shown if a ship moves through the water,
- * the ice at the start if a ship moves over ground. */
+ * again, `marksDirty` when only the marks above the ice must. `sizes` is the range of floe sizes that is highlighted,
+ * or null. `isFitted` is true while the map shows the whole run; it is then fitted again when the size of the map
+ * changes. The channel is shown if a ship moves through the water, the ice at the start if a ship moves over ground. */
 function firstState(run, motions, range) {
   const isUnderWay = (carry) => run.frames.times.length > 0 && run.info.ships.some(({ is_moored: isMoored }, ship) =>
     !isMoored && hasGone(run, motions, ship, carry));
@@ -149,8 +155,9 @@ function firstState(run, motions, range) {
 }
 
 /** Makes the player without its controls. Tests and measurements read its members. `cardIsStale` is set when the card
- * of a floe must be filled again; `loadLine` has the loads along the hulls. Only tests use the last four members:
- * `stations` of the channel behind a ship, `contacts` of the present frame, `valueWords` and `rulerWords`. */
+ * of a floe must be filled again; `loadLine` has the loads along the hulls, `box` the part of the world that fit()
+ * shows. Only tests use the last four members: `stations` of the channel behind a ship, `contacts` of the present
+ * frame, `valueWords` and `rulerWords`. */
 function makePlayer(canvases, source) {
   const run = readPlayedRun(source);
   const { times } = run.frames;

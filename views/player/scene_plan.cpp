@@ -8,7 +8,7 @@ namespace {
 
 using geometry::Point;
 
-/// Returns the index in a path such as "ships[2].speed" if it belongs to that list.
+/// Returns the index in the path of a problem, such as "ships[2].speed", if the path belongs to that list.
 std::optional<std::size_t> index_in(std::string_view path, std::string_view list) {
   if (!path.starts_with(list) || path.substr(list.size()).substr(0, 1) != "[") return {};
   std::size_t index = 0;
@@ -18,6 +18,7 @@ std::optional<std::size_t> index_in(std::string_view path, std::string_view list
 }
 
 /// Returns the position of the body to which a problem belongs; nothing for ice, because an entry may have many floes.
+/// Hulls are numbered in the order of ships, structures and walls (hull_of()).
 std::optional<Point> place_of(const io::Problem& problem, const simulation::Scene& scene) {
   std::size_t before = 0;
   for (const auto& [list, count] : {std::pair{"ships", scene.ships.size()},
@@ -48,7 +49,9 @@ void write_routes(io::JsonWriter& json, const simulation::Scene& scene) {
 
 }  // namespace
 
-// The words of a problem are its message with the values that are allowed; its line is 0 if no line is known.
+// The page lists the warnings and hints that were found while reading the scene, and marks on the map those with a
+// position (plan.js). `words` is the message of the problem; `line` is 0 if no line is known. With `--watch` the page
+// reloads itself when the newest stamp differs from its own.
 std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, const std::string& stamp_file) {
   std::string text;
   io::JsonWriter json(text);

@@ -2,15 +2,17 @@
 
 // Sizes √area in classes with round limits, ten per decade.
 
-/** Lower limits of the classes of one decade [m]. */
+/** Lower limits of the ten classes of the decade from 1 to 10 m [m]; other decades have these times a power of ten. */
 const roundSizes = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.3, 8];
 // Least number of classes of the histogram; with fewer, floes of nearly one size would fill it with a single bar.
 const leastClasses = 6;
 
+/** Size of a floe [m]: the root of its area. */
 const sizeOf = (floes, id) => Math.sqrt(floes.area[id]);
 
 /** Limits of classes that contain all sizes from the smallest to the largest. If these are too few, classes are added
- * above and below until there are enough. */
+ * above and below until there are enough. The search for the first limit starts one class lower, because round limits
+ * deviate from powers of 10^0.1. */
 function sizeEdges(least, largest) {
   const edgeOf = (n) => Number((roundSizes[((n % 10) + 10) % 10] * 10 ** Math.floor(n / 10)).toPrecision(3));
   let first = Math.floor(10 * Math.log10(least)) - 1;
@@ -21,7 +23,8 @@ function sizeEdges(least, largest) {
   return Array.from({ length: last - first + 1 }, (_, k) => edgeOf(first + k));
 }
 
-/** Classes of the floes of a run: their limits, and the class of each floe; that of a floe without area is 0. */
+/** Classes of all floes of a run at any time: their limits, and the class of each floe. Floes that a page of an area
+ * does not contain have no area here, and class 0. */
 function makeSizeClasses({ floes }) {
   let [least, largest] = [Infinity, 0];
   for (let id = 0; id < floes.count; ++id) {
@@ -139,6 +142,9 @@ function watchSizeFields(state, actions) {
   }
 }
 
+/** Makes the panel. Its bars show the floes that float at the present time, and the highest bar always fills the
+ * height. show() updates it after a change of the time or the range, showFields() writes the range to the two fields,
+ * and countBy() selects what bars show, "number" or "area". */
 function makeSizePanel({ run, state, places, actions }) {
   const classes = makeSizeClasses(run);
   const { edges } = classes;
