@@ -13,9 +13,8 @@ const cutShare = 0.2;
  * remaining part of a floe of the scene, which is the largest piece of each bend, and every piece of a whole or cut
  * floe with at least `cutShare` of the area of the scene's floe. `split` and `bend`: any other piece, by the fracture
  * that freed it, where everything but a split counts as bending; the largest piece of a piece that broke off keeps its
- * kind. `cameUp`: it surfaced from under a hull, which makes a new floe even of a floe
- * of the scene, or broke from such a floe. `breakOf` maps a floe to the index of the
- * event that ended it, except for going under.
+ * kind. `cameUp`: it surfaced from under a hull, which makes a new floe even of a floe of the scene, or broke from such
+ * a floe. `breakOf` maps a floe to the index of the event that ended it, except for going under.
  */
 function breakagesOf({ floes, info, breakOf }) {
   const of = new Uint8Array(floes.count);
@@ -120,7 +119,7 @@ function themeColours() {
 
 // The legend below the map. It explains the colours, marks and arrows that are shown. Sizes are listed from the largest
 // to the smallest. Whatever changes the layers, the colouring, the range of sizes or the theme must call show().
-// Contacts that crush have the mark colour of splits, others that of bends.
+// Contacts in crushing have the colour of split marks, all other contacts the colour of bend marks.
 
 function makeLegend(player) {
   const { run, state, colourings } = player;

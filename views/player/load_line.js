@@ -26,11 +26,10 @@ function waterlineOf(ring) {
 
 /** Makes the loads along the hulls from peaks, which are sorted by time: those in the page's range of time, also from
  * floes that the page lacks. A peak is the largest normal force of one contact with ice (docs/run-folder.md,
- * contacts.csv). panelsAt() gives the largest peak [N], and the sum [N] and number of all
- * peaks, for each panel of each ship up to a time; it continues from the previous time if time advances. A ship has
- * `sides` panels on each side of its stem, in ascending order of the arc length from the stem, which is positive to
- * port. `most` is the largest peak of all ships and times of the page [N], so that the scale of colours does not
- * change. */
+ * contacts.csv). panelsAt() gives the largest peak [N], and the sum [N] and number of all peaks, for each panel of each
+ * ship up to a time; it continues from the previous time if time advances. A ship has `sides` panels on each side of
+ * its stem, in ascending order of the arc length from the stem, which is positive to port. `most` is the largest peak
+ * of all ships and times of the page [N], so that the scale of colours does not change. */
 function makeLoadLine({ info, columns }) {
   const lines = info.ships.map(({ waterline_m: ring }) => waterlineOf(ring));
   const sides = lines.map(({ length }) => Math.ceil(length / 2 / loadPanel));
