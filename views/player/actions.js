@@ -1,6 +1,8 @@
 // Actions of the player. Its controls, keys and pointers call them, and so do tests.
 
-/** Returns all actions in one object. Each group may call actions of the others. */
+/** Returns all actions in one object. Each group may call actions of the others. Actions on the map and its layers draw
+ * all again and return nothing. The others set `marksDirty`, or change the clock, if anything must be drawn. Only when
+ * something is drawn are cards and the link of the moment updated. */
 function makeActions(player) {
   const actions = clockActions(player.state);
   const redrawn = Object.entries({ ...mapActions(player, actions), ...layerActions(player) }).map(([name, act]) =>
@@ -24,7 +26,7 @@ function eventActions({ run, state, view }, actions) {
       actions.goTo(times[Math.min(times.length - 1, Math.max(0, next))] ?? 0);
     },
     /** Selects an event, pauses and moves to its time. If its place is outside of the map, or within 20 px of its edge,
-     * the map is centred on it, unless it follows a ship. */
+     * the map is centred on it; if it follows a ship, drawing moves it back to the ship. */
     goToEvent(index) {
       const event = events[index];
       if (!event) return;
@@ -38,8 +40,9 @@ function eventActions({ run, state, view }, actions) {
       }
       showEventCard(byId("event-card"), run, event);
     },
-    /** Index of the first event with a mark on the time axis (isMarked()) after a time [s], or with step < 0 of the
-     * last one before it; −1 if there is none. Two runs side by side use it. */
+    /** Index of the first event with a mark on the time axis after a time [s], or with step < 0 of the last one before
+     * it; −1 if there is none. Ice that goes under a hull or surfaces has no mark (isMarked() in timeline.js). Two runs
+     * side by side use it. */
     eventFrom(time, step) {
       const isBeyond = (event) => isMarked(event) && (step > 0 ? event.t_s > time + 1e-9 : event.t_s < time - 1e-9);
       return step > 0 ? events.findIndex(isBeyond) : events.findLastIndex(isBeyond);
@@ -133,8 +136,8 @@ function floeActions(player, actions) {
       state.marksDirty = true;
       player.cardIsStale = true;
     },
-    /** Selects a floe. If it does not exist at the present time, the player moves to its birth, or to the start of the
-     * page's range of time if it was born earlier. */
+    /** Selects a floe. If it is not there at the present time, on the water or under a hull, the player moves to its
+     * birth, or to the start of the page's range of time if it was born earlier. */
     visit(id) {
       if (run.floes.born[id] === Infinity) return showToast(`floe ${id} is not in this page: it is out of the area`);
       if (!places.isThere(id, state.time)) {
@@ -186,6 +189,7 @@ function pageActions(player, actions) {
       showEventCard(byId("event-card"), run, null);
       return actions.select(-1);
     },
+    /** Changes between the light and the dark theme; the page does not remember it. */
     toggleTheme() {
       const isDark = getComputedStyle(document.documentElement).colorScheme.includes("dark");
       document.documentElement.dataset.theme = isDark ? "light" : "dark";
@@ -214,7 +218,7 @@ function pageActions(player, actions) {
     addPlot(name = nextQuantity(player.plotPanel)) {
       if (name !== undefined) actions.showPlots([...player.plotPanel.further(), name]);
     },
-    /** Shows plots of these quantities below the first plot. */
+    /** Shows plots of these quantities below the first plot; the next drawing stores them in the link. */
     showPlots(quantities) {
       player.plotPanel.showFurther(quantities.filter((name) => Object.hasOwn(plot.quantities, name)));
       state.marksDirty = true;

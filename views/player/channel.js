@@ -1,9 +1,10 @@
 // The channel behind each ship (docs/channel.md): the widths that analysis/channel.cpp measured, and the band that the
 // hull swept. Both are carried with the water to the time that is shown.
 
-/** Drift of the water at a time: its displacement in x and y since the start of the scene [m], and the velocity of free
- * drift of ice in x and y [m/s]. It is interpolated linearly between the samples [t, x, y, vx, vy], of which there are
- * at least two, and extrapolated from the nearest two at times outside of them. */
+/** Drift at a time: the displacement of the water in x and y since the start of the scene [m], which carries channels,
+ * and the velocity of free drift of ice in x and y [m/s], from which draw_marks.js finds the direction upstream. Both
+ * are interpolated linearly between the samples [t, x, y, vx, vy] of the page, of which there are at least two, and
+ * extrapolated from the nearest two at times outside of them. */
 function driftAt(samples, time) {
   const after = samples.findIndex(([t]) => t > time);
   const k = Math.max(1, after < 0 ? samples.length - 1 : after);
@@ -12,8 +13,9 @@ function driftAt(samples, time) {
   return [1, 2, 3, 4].map((column) => from[column] + share * (to[column] - from[column]));
 }
 
-/** Returns a function that computes where a point of the water moves from one time to another [s]: with the drift, and
- * along `shear_direction_rad` by the shear rate [1/s] times its distance to port of the origin, which drifts too. */
+/** Makes `run.carry` from `run.info.water`: a function that computes where a point of the water moves from one time to
+ * another [s]: with the drift, and along `shear_direction_rad` by the shear rate [1/s] times its distance to port of
+ * the origin, which drifts too. */
 function makeCarrier({ drift, shear_per_s: shear, shear_direction_rad: direction, shear_origin_m: [ox, oy] }) {
   const [cx, cy] = [Math.cos(direction), Math.sin(direction)];
   return (x, y, from, to) => {
@@ -25,9 +27,9 @@ function makeCarrier({ drift, shear_per_s: shear, shear_direction_rad: direction
 }
 
 /** Returns true if a ship has moved by more than 1 m from the first frame to the last, relative to `carry`, which
- * carries points with the water, or leaves them in place for motion over ground. When the page opens, the layer
- * "channel" is on only if a ship that is not moored has moved relative to the water, and the layer "ice at the start"
- * only if one has moved over ground. */
+ * carries points with the water, or leaves them in place for motion over ground. The run must have frames. firstState()
+ * of player.js asks this of every ship that is not moored: when the page opens, the layer "channel" is on only if one
+ * has moved relative to the water, and the layer "ice at the start" only if one has moved over ground. */
 function hasGone(run, motions, ship, carry) {
   const { times } = run.frames;
   const last = times.length - 1;
@@ -50,9 +52,9 @@ function posesUpTo(run, motions, ship, time) {
 }
 
 /** Selects poses at distances of at most `spacing` [m], at which the drawn outlines overlap. Poses are interpolated
- * between distant ones. To save drawing, poses are left out where the ship moves by less than an eighth of `spacing`
- * and turns by less than 0.01 rad, at which the band looks the same; the last pose is always kept. Distances are those
- * of the poses carried with the water to `time`. */
+ * between distant ones; headings count full turns, so they need no wrapping. To save drawing, poses are
+ * left out where the ship moves by less than an eighth of `spacing` and turns by less than 0.01 rad, at which the band
+ * looks the same; the last pose is always kept. Distances are those of the poses carried with the water to `time`. */
 function evenly(poses, spacing, carry, time) {
   const placed = ([x, y, , at]) => carry(x, y, at, time);
   const even = [];
@@ -84,10 +86,11 @@ function drawSweptBand(context, view, run, motions, time, colours) {
 }
 
 /** Stations that are a channel behind a ship (`is_channel` in docs/channel.md), from the last measurement up to a time
- * [s], carried with the water to that time. `channel_measured_s` are all instants of measurement, at most 200, also
- * those without any station. (x, y) is the middle of the station on the track, (fx, fy) the direction of the track,
- * `port` and `starboard` the distances from the track to the ice, `length` the length of the station along the track,
- * `along` its distance along the track, and `beam` the beam of the hull [m]. */
+ * [s], carried with the water to that time; none before the first measurement. `channel_measured_s` are all instants of
+ * measurement, also those without any station; at most 200, because each makes the page larger and slower to write.
+ * (x, y) is the middle of the station on the track, (fx, fy) the direction of the track, `port` and `starboard`
+ * the distances from the track to the ice, `length` the length of the station along the track, `along` its distance
+ * from the beginning of the track, which only tests read, and `beam` the beam of the hull [m]. */
 function stationsOf(run, ship, time) {
   const { columns: c, info } = run;
   const measured = c.channel_measured_s[lastAtMost(c.channel_measured_s, time)];

@@ -13,8 +13,8 @@ const cutShare = 0.2;
  * remaining part of a floe of the scene, which is the largest piece of each bend, and every piece of a whole or cut
  * floe with at least `cutShare` of the area of the scene's floe. `split` and `bend`: any other piece, by the fracture
  * that freed it, where everything but a split counts as bending; the largest piece of a piece that broke off keeps its
- * kind. `cameUp`: it surfaced from under a hull, or broke from such a floe. `breakOf` maps a floe to the index of the
- * event that ended it, except for going under.
+ * kind. `cameUp`: it surfaced from under a hull, which makes a new floe even of a floe of the scene, or broke from such
+ * a floe. `breakOf` maps a floe to the index of the event that ended it, except for going under.
  */
 function breakagesOf({ floes, info, breakOf }) {
   const of = new Uint8Array(floes.count);
@@ -36,7 +36,7 @@ function breakagesOf({ floes, info, breakOf }) {
 // The colours of the classes, in the order of the classes. Each ramp has even steps of lightness and none has the
 // lightness of the water, so that colours can be distinguished in greyscale and by colour-blind users. Ramps go from
 // light to dark, but sizes from dark to light. The last colour of `breakage`, of ice that surfaced, is outside of its
-// ramp. Marks use the Okabe–Ito palette.
+// ramp. No test checks this. Marks, whose colours are in player.css, use the Okabe–Ito palette.
 
 const ramps = {
   breakage: ["#ffffff", "#f6e3a8", "#dd9a45", "#8f4a1c", "#edc7dd"],
@@ -45,7 +45,7 @@ const ramps = {
   size: ["#0d4a35", "#2d7a55", "#58a173", "#b5dcbb", "#dcf0df", "#ffffff"],
 };
 
-/** Mixes two colours "#rrggbb". `part` is the fraction of the second one. */
+/** Mixes two colours "#rrggbb". `part` is the fraction of the second one. sizes.js makes floes pale with it. */
 function mixedColour(colour, other, part) {
   const channel = (css, k) => parseInt(css.slice(1 + 2 * k, 3 + 2 * k), 16);
   const mixed = [0, 1, 2].map((k) => Math.round(channel(colour, k) + part * (channel(other, k) - channel(colour, k))));
@@ -55,7 +55,8 @@ function mixedColour(colour, other, part) {
 /** Colour of a ship's curves in the plot; the theme has five. */
 const shipColour = (colours, ship) => colours[`ship-${ship % 5}`];
 
-/** The five largest of 1, 2, 5 × 10ⁿ below a value in ascending order: the limits of six classes. */
+/** The five largest of 1, 2, 5 × 10ⁿ below a value in ascending order: the limits of six classes.
+ * The value must be positive, otherwise the limits are no numbers. */
 function roundEdges(largest) {
   const edges = [];
   let edge = roundBelow(largest * 0.999);
@@ -69,7 +70,8 @@ function countWords(from, below) {
 }
 
 /** Largest values in a run, which determine the classes of colours: the fastest record of a floe [m/s], the largest
- * area [m²], and the most fractures in a lineage. */
+ * area [m²], and the most ancestors of a floe. For two runs side by side, pair.js replaces them by the larger ones of
+ * both, so that a colour means the same in both. */
 function extremesOf({ floes, frames }) {
   const most = { speed: 0, area: 0, generation: 1 };
   for (const at of frames.recordAt) most.speed = Math.max(most.speed, Math.hypot(frames.doubles[at + 3],
@@ -83,8 +85,8 @@ function extremesOf({ floes, frames }) {
 
 /** Ways of colouring floes, in classes up to the extremes: the value of a floe, limits, colours, and words for the
  * legend. A value equal to a limit belongs to the class above it. Speeds are those at the present time. The classes of
- * generations are fixed unless a lineage has more than 20 fractures. The legend leaves out the classes for which
- * isUsed() returns false. */
+ * generations are fixed unless a floe has more than 20 ancestors; surfacing adds one just as a fracture does. The
+ * legend leaves out the classes for which isUsed() returns false. */
 function makeColourings(run, places, most) {
   const { floes } = run;
   const classes = (edges) => [`below ${edges[0]}`,
@@ -116,7 +118,8 @@ function themeColours() {
 }
 
 // The legend below the map. It explains the colours, marks and arrows that are shown. Sizes are listed from the largest
-// to the smallest.
+// to the smallest. Whatever changes the layers, the colouring, the range of sizes or the theme must call show().
+// Contacts in crushing have the colour of split marks, all other contacts the colour of bend marks.
 
 function makeLegend(player) {
   const { run, state, colourings } = player;

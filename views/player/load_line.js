@@ -1,7 +1,7 @@
 // Colours the waterlines by the ice loads up to the present time, from the peaks of contacts.csv.
 
-// Length of the panels into which a waterline is divided [m], the same that `polynya loads` uses unless told otherwise.
-// Longer panels collect more peaks and show less detail.
+// Length of the panels into which a waterline is divided [m]. `polynya loads` uses the same unless the scene records
+// panels or --panel is given. Longer panels collect more peaks and show less detail.
 const loadPanel = 2.5;
 const loadSteps = 5; // number of colours of the scale
 
@@ -24,12 +24,12 @@ function waterlineOf(ring) {
   return { ring, length: sumOf(sides), stem: sumOf(sides.slice(0, first)) + (isEdge ? sides[first] / 2 : 0) };
 }
 
-/** Makes the loads along the hulls from peaks, which are sorted by time. A peak is the largest normal force of one
- * contact (docs/run-folder.md, contacts.csv). panelsAt() gives the largest peak [N], and the sum [N] and number of all
- * peaks, for each panel of each ship up to a time; it continues from the previous time if time advances. A ship has
- * `sides` panels on each side of its stem, in ascending order of the arc length from the stem, which is positive to
- * port. `most` is the largest peak of all ships and times of the page [N], so that the scale of colours does not
- * change. */
+/** Makes the loads along the hulls from peaks, which are sorted by time: those in the page's range of time, also from
+ * floes that the page lacks. A peak is the largest normal force of one contact with ice (docs/run-folder.md,
+ * contacts.csv). panelsAt() gives the largest peak [N], and the sum [N] and number of all peaks, for each panel of each
+ * ship up to a time; it continues from the previous time if time advances. A ship has `sides` panels on each side of
+ * its stem, in ascending order of the arc length from the stem, which is positive to port. `most` is the largest peak
+ * of all ships and times of the page [N], so that the scale of colours does not change. */
 function makeLoadLine({ info, columns }) {
   const lines = info.ships.map(({ waterline_m: ring }) => waterlineOf(ring));
   const sides = lines.map(({ length }) => Math.ceil(length / 2 / loadPanel));
@@ -55,8 +55,8 @@ function makeLoadLine({ info, columns }) {
   };
 }
 
-/** Draws the largest load of each panel along the hulls, or with `isMean` the mean of its peaks. Returns a notice if
- * the run has no peaks. */
+/** Draws the largest load of each panel along the hulls, or with `isMean` the mean of its peaks; if both layers are on,
+ * the largest. Returns a notice if the page has no peaks: the scene records no contacts, or ice pressed too little. */
 function drawLoadLine(context, view, loadLine, motions, time, isMean) {
   if (loadLine.most === 0) return "This run recorded no peaks of loads.";
   loadLine.panelsAt(time).forEach((panels, ship) => {

@@ -56,7 +56,8 @@ function includePoint(box, x, y) {
 
 /** Box around the floating floes of a run at the times of `range`, its start and end, and around the ships in all
  * frames [m]. Each ship has the room of its hull at any heading. Without floes and ships it is a square with a side of
- * 100 m. Floes are not considered at times between. `places` is left at the end of `range`. */
+ * 100 m. Floes are not considered at times between. `places` is left at the end of `range` until the first drawing.
+ * `player.box`, to which the map is fitted, also has planned routes, and with two runs side by side the other run. */
 function extentOf(run, motions, places, range) {
   const { floes, info, frames } = run;
   const box = { left: Infinity, right: -Infinity, bottom: Infinity, top: -Infinity };

@@ -35,7 +35,8 @@ function showWidth({ state, view }, width) {
 
 /** For each parameter of a link, a function that applies its text. It returns a message about a wrong value, or
  * nothing. A range of sizes without its second number, such as "20-", has no upper limit. Selecting a floe does not
- * change the time. Plots beyond the largest number (plot_panel.js) are left out without a message. */
+ * change the time, and on a page of an area an id of the run that the page lacks is not reported. Plots beyond the
+ * largest number (plot_panel.js) are left out without a message. */
 const momentWords = {
   t(player, text) {
     const { actions, axis } = player;
@@ -113,7 +114,8 @@ const addressOf = (words) => `${location.href.split("#")[0]}${linkOf(words)}`;
 /**
  * Updates the address of the page when its state changes, and the state when another address is entered. `words`
  * returns the parameters of the present state; `goTo` applies a link and returns messages about it. Returns a function
- * that must be called when something has changed.
+ * that must be called when something has changed: `keepLink` of a player, or of both in pair.js, which has parameters
+ * of its own for two runs.
  */
 function watchMoment({ words, goTo, isPlaying }) {
   let link = linkOf(words());
@@ -136,7 +138,8 @@ function watchMoment({ words, goTo, isPlaying }) {
   };
 }
 
-/** Copies a text to the clipboard if the browser allows it, and reports that; otherwise tells the user what to do. */
+/** Copies a text, a link or a place of a scene (plan.js), to the clipboard, and shows `done`. If the browser refuses
+ * its clipboard interface, the older copy command is tried; if that fails, too, `otherwise` is shown. */
 async function copyText(text, done, otherwise) {
   try {
     await navigator.clipboard.writeText(text);

@@ -1,6 +1,7 @@
 // Places of all bodies at a time, on the water and under hulls.
 
-// Motion of floes and ships at a time, by the rules of docs/run-folder.md (as in io/run/frames.cpp).
+// Motion of floes and ships at a time, by the rules of docs/run-folder.md. MotionIndex in io/run/run_reader.cpp applies
+// the same rules; if only one of the two is changed, the player and the other commands place floes differently.
 
 /** Last index from `from` to before `end` whose value is at most x; from − 1 if there is none. Values are in ascending
  * order. */
@@ -55,9 +56,9 @@ class Motions {
     return Math.max(recordsOf[floe], lastAtMost(recordFrame, this.frame, recordsOf[floe], recordsOf[floe + 1]));
   }
 
-  /** Motion of a floe that frames record. A frame leaves out the floes that their last record, extrapolated at its
-   * velocity, places to 1 mm and 1e-5 rad. So if the next frame records the floe too, the motion is interpolated up to
-   * that record; otherwise the last record is extrapolated. */
+  /** Motion of a floe that frames record. A frame leaves out the floes whose last record, extrapolated at its velocity,
+   * is right within the tolerances of io/run/frames.hpp (1 mm, 1e-5 rad, and of the velocities). So if the next frame
+   * records the floe too, the motion is interpolated up to that record; otherwise the last record is extrapolated. */
   ofRecorded(floe) {
     const { times, doubles, recordsOf, recordFrame, recordAt } = this.frames;
     const { motion, recorded, time, frame, part } = this;
@@ -100,7 +101,8 @@ class Motions {
     return a.map((value, k) => value + this.part * (b[k] - value));
   }
 
-  /** Returns true if no frame after the present one, up to and including `endFrame`, records the floe. */
+  /** Returns true if no frame after the present one, up to and including `endFrame`, records the floe: until then it
+   * moves at constant velocity, and draw_ice.js can predict how far. */
   isSteady(id, endFrame) {
     const { recordsOf, recordFrame } = this.frames;
     const by = this.reference[id];
@@ -109,7 +111,8 @@ class Motions {
     return next >= recordsOf[by + 1] || recordFrame[next] > endFrame;
   }
 
-  /** Returns true if frames record the floe itself. */
+  /** Returns true if frames record the floe itself. Otherwise the velocity is that of another floe, and the card of the
+   * floe shows none. */
   isRecorded(id) {
     return this.reference[id] === id;
   }
@@ -153,7 +156,7 @@ function drawIceUnderHulls(context, view, run, places, colours) {
   });
 }
 
-/** The two rows with present values above the numbers of the whole run. */
+/** The two rows with present values above the numbers of the whole run; only a run in which ice went under has them. */
 function rowsUnderHulls() {
   return [["under-now", "under the hull or waiting"], ["came-up-now", "come up until now"]].flatMap(([id, name]) =>
     [make("dt", {}, name), make("dd", { id }, "0")]);
@@ -164,8 +167,8 @@ function showCountsUnderHulls({ under }, places, time) {
   byId("came-up-now").textContent = String(lastAtMost(under.cameUpAt, time) + 1);
 }
 
-/** When a floe went under and how it ended: it broke, surfaced as new floes or, without any, as brash only, or stayed
- * under the ice. */
+/** Rows of a floe's card, [text, exact time [s]] by name: when the floe went under and how it ended: it broke, surfaced
+ * as new floes or, without any, as brash only, or stayed under the ice. Only tests read the exact times. */
 function lastFacts({ floes, info, breakOf }, id) {
   const facts = {};
   const seconds = (time) => valueWords(time, "s");

@@ -6,10 +6,10 @@ const mostKeptPoints = 4e6;
 
 /**
  * Returns a function that gives the points [x, y, ...] of a floe in its body frame [m], ring after ring. Coordinates in
- * the body frame are those that the floe's oldest ancestor had in the scene, so its origin is not the centroid. The
- * rings of a floe are those from rings_of[floe] to before rings_of[floe + 1]; each ends before the point
- * ring_ends[ring], counted from the floe's first point. The page contains shapes as floes.ndjson does
- * (docs/run-folder.md): whole, or in parts, in the order of the floe's points. A part is `part_count` points of
+ * the body frame are those that the floe's oldest ancestor had in the scene, so callers subtract the centroid (`cx`,
+ * `cy`) before they place a shape. The rings of a floe are those from rings_of[floe] to before rings_of[floe + 1]; each
+ * ends before the point ring_ends[ring], counted from the floe's first point. The page contains shapes as floes.ndjson
+ * does (docs/run-folder.md): whole, or in parts, in the order of the floe's points. A part is `part_count` points of
  * `part_floe` from the point `part_first`: of the parent's ring `part_ring`, where it may wrap around from the ring's
  * end to its start, or, if `part_ring` is negative, of the floe's own new points in points_m. Parts are sorted by floe.
  * Floes are numbered by the ids of the run, also on a page of an area; a parent has a smaller id than its pieces.
@@ -65,9 +65,12 @@ function makeShapes({ parent, rings_of: ringsOf, ring_ends: ringEnds, points_m: 
 
 const bytesOfBase64 = (text) => Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
+/** Types of columns by their names in the page (ColumnWriter in views/player/player_page.hpp). Only frames are bytes,
+ * "u8"; flags such as came_up are integers, "i32". */
 const columnTypes = { f64: Float64Array, i32: Int32Array, u8: Uint8Array };
 
-/** Columns with one value for each floe. */
+/** Columns with one value for each floe. A new column of floes must be added here as well as in player_data.cpp;
+ * otherwise pages of an area read it by the wrong floe. */
 const floeRows = ["parent", "generation", "born_s", "died_s", "went_under_s", "came_up", "area_m2", "mass_kg",
   "thickness_m", "flexural_strength_Pa", "centroid_x_m", "centroid_y_m", "reach_m"];
 
@@ -89,8 +92,8 @@ function spreadFloes(columns, count) {
 /**
  * The source of the player's run. `read()` returns the words and lists of a run, `info`, and its columns of numbers,
  * `bytes`, both as views/player/player_data.cpp makes them; `info.columns` states where each column is in the bytes.
- * This source is the page that `polynya view` writes. The player can show any other source with these two. The text of
- * the columns is removed from the page once it is read, to free memory.
+ * This source, the only one at present, is the page that `polynya view` writes; another one needs only these two, and
+ * is passed to startPlayer(). The text of the columns is removed from the page to free memory, so it is read only once.
  */
 const pageSource = {
   read() {
@@ -116,8 +119,8 @@ function readRun(source) {
 
 /** Columns of floes, named without units: died_s becomes `died`, went_under_s `wentUnder`; both are Infinity if it
  * never happens. `generation` is the number of ancestors of a floe. `reach` is the distance of the farthest vertex from
- * the centroid. `floatsUntil` is the time at which it broke or went under. `cameUp` is true for floes that surfaced
- * from under a hull, and for their pieces. */
+ * the centroid: a floe farther than it from the screen or the pointer is skipped. `floatsUntil` is the time at which it
+ * broke or went under. `cameUp` is 1 for brash: floes that surfaced from under a hull, and their pieces. */
 function readFloes(columns) {
   const capital = (_, letter) => letter.toUpperCase();
   const nameOf = (column) => column.replace(/_(s|m|m2|kg|Pa)$/, "").replace(/_(.)/g, capital);
@@ -126,7 +129,7 @@ function readFloes(columns) {
   Object.assign(floes, {
     count, cx: floes.centroidX, cy: floes.centroidY, shape: makeShapes(columns),
     floatsUntil: floes.died.map((died, i) => Math.min(died, floes.wentUnder[i])),
-    oldest: new Int32Array(count), // the floe of the scene from which it broke
+    oldest: new Int32Array(count), // the floe of the scene from which it broke: equal in a family
     children: new Map(),
   });
   for (let i = 0; i < count; ++i) {
@@ -139,9 +142,10 @@ function readFloes(columns) {
 
 /** Reads frames.bin (docs/run-folder.md) and sorts its records by floe. The file has a header of 16 bytes. A frame has
  * four 32-bit words ("FRAM", the numbers of ships and floes, and 0), its time, six doubles per ship, and for each floe
- * its id as a 64-bit integer and six doubles. A page contains whole frames only. The records of a floe are those from
- * recordsOf[floe] to before recordsOf[floe + 1], in ascending order of time: `recordFrame` is the frame of each, and
- * `recordAt` the index in `doubles` of its six numbers, which motion.js names. */
+ * its id as a 64-bit integer and six doubles. A page contains whole frames only. A frame contains only the floes that
+ * do not move as their last record predicts. The records of a floe are those from recordsOf[floe] to before
+ * recordsOf[floe + 1], in ascending order of time: `recordFrame` is the frame of each, and `recordAt` the index in
+ * `doubles` of its six numbers, which motion.js names. */
 function readFrames(bytes, floeCount, shipCount) {
   const words = new Uint32Array(bytes.buffer, bytes.byteOffset, bytes.length >> 2);
   const doubles = new Float64Array(bytes.buffer, bytes.byteOffset, bytes.length >> 3);
@@ -174,7 +178,8 @@ function readFrames(bytes, floeCount, shipCount) {
   return { times: Float64Array.from(times), shipAt, shipCount, doubles, recordsOf, recordFrame, recordAt };
 }
 
-/** Rows of forces.csv for each ship: the columns that the page names, and those of causes. */
+/** Rows of forces.csv for each ship, which its card and the plots show: the columns named in `force_columns` and
+ * `force_causes` of the run's information, in the selected time. */
 function readForces(info, columns) {
   const named = [...info.force_columns.map(({ name }) => name), ...info.force_causes.map(({ column }) => column)];
   return info.ships.map((_, ship) => {
