@@ -20,7 +20,9 @@ struct Step {
   Instant begin;
   Instant end;
   double length = 0;  ///< length Δt [s]
-  /// Number of whole ticks of the run that are completed at its end. Random draws of a step are seeded with it.
+  /// Number of whole ticks of the run that are completed at its end; all parts of a tick but the last have the same
+  /// number. It is a part of the seed with which the places are drawn where ice surfaces (ice/under_hull.cpp), so that
+  /// a resumed run draws the same places.
   std::int64_t whole_ticks = 0;
   geometry::Vector water_velocity;  ///< mean velocity of the water frame over ground in the step [m/s]
   int threads = 1;                  ///< number of threads that compute it; results do not depend on it
@@ -37,7 +39,8 @@ struct Clock {
 
 /// Returns true if a multiple of an interval [s] lies in the tick that the clock has just completed. An instant that a
 /// scene asks for, for example of a frame, is therefore rounded up to the end of a tick; no step is made shorter for
-/// it. An interval that is shorter than a tick is due in every tick.
+/// it. An interval that is shorter than a tick is due in every tick. The start of a run is never due; its frame is
+/// written separately.
 bool is_due(const Clock& clock, double interval);
 
 }  // namespace polynya::simulation

@@ -33,12 +33,13 @@ double heap_of(const Polygon& polygon) {
 }
 
 /// Memory of one body in the columns of dynamics::Bodies [bytes]; the last two point to its boundary and drag shape.
+/// Whoever adds a column there changes this sum too; no assertion compares them.
 constexpr double kColumns = 16 * sizeof(double) + 2 * sizeof(geometry::Vector) + sizeof(dynamics::DragSpan) + 3 +
                             2 * sizeof(std::shared_ptr<geometry::Boundary>);
 
 /// Returns the memory of a floe at rest [bytes]: the floe's specification in the caller's scene and in the world's
-/// copy, the floe itself, its birth in the journal, its body and its outline. Three polygons count, because the polygon
-/// of the world's copy becomes the floe's.
+/// copy, the floe itself, its birth in the journal, its body and its outline. Three polygons count: those of the
+/// caller's specification, the birth and the floe, which takes the polygon of the world's copy.
 double at_rest(const FloeSpec& floe) {
   const Polygon& polygon = floe.polygon_in_world;
   const double vertices = vertices_of(polygon);
@@ -59,9 +60,11 @@ double moving() {
   return block(sizeof(dynamics::DragShape)) + kPairs * (sizeof(dynamics::Pair) + near);
 }
 
-/// Memory of the covers of boundaries that are kept, which have one piece for each contact circle. Two floes with at
-/// most kFewEdges edges together need no cover. The estimate therefore leaves out floes with at most half of that, also
-/// where they lie beside a plate with many edges and get a cover.
+/// Memory of the covers of boundaries that are kept. It counts one piece for each circle radius of a boundary, as the
+/// contact search does when it decides which covers to keep (pieces_of in geometry/contact/boundary.hpp). Covers of
+/// edges longer than 128 radii have fewer pieces unless they have contact circles, so the estimate is then too large.
+/// Two floes with at most kFewEdges edges together need no cover. The estimate therefore leaves out floes with at most
+/// half of that, also where they lie beside a plate with many edges and get a cover.
 class KeptCovers {
  public:
   explicit KeptCovers(const ContactSettings& contact)
@@ -74,7 +77,7 @@ class KeptCovers {
   }
 
   double bytes() const {
-    constexpr double kNodes = 0.8;  // number of nodes of a cover's tree per piece
+    constexpr double kNodes = 0.8;  // approximate number of nodes of a cover's tree per piece
     constexpr double kPiece =
         sizeof(geometry::PieceEdges) + sizeof(geometry::BoundingCircle) + kNodes * sizeof(geometry::CircleNode);
     const double room = std::max(0.0, dynamics::ContactRule{}.most_kept_pieces - always_);
@@ -88,7 +91,8 @@ class KeptCovers {
   double always_ = 0, others_ = 0;
 };
 
-/// Factor for further pairs, contacts and unused heap memory [-]. It was measured with drifting lattices of floes
+/// Factor for further pairs, contacts and unused heap memory, in MemoryEstimate::all_moving only: at_start is a lower
+/// bound and decides whether a run is refused [-]. It was measured with drifting lattices of floes
 /// (tests/app/run_command_test.cpp). Larger values overestimate the memory of a run; smaller ones underestimate it.
 constexpr double kOverheadFactor = 1.2;
 

@@ -23,7 +23,7 @@ inline constexpr double kDisplacementOverThickness = 0.15;
 inline constexpr double kDisplacementTimesThickness = 0.0375;
 /// Largest displacement of a hull relative to ice in one step, as a fraction of ContactSettings::circle_radius [-]. It
 /// matters for radii below 0.3 m. Larger values lose contacts from one step to the next, because a contact that moved
-/// farther is not recognized.
+/// farther is not recognized. The chosen tick (default_tick.hpp) applies these three limits to floes as well.
 inline constexpr double kDisplacementOverRadius = 0.25;
 /// Factor by which a hull may exceed the allowed displacement before a tick is divided further [-]. With 1, a ship
 /// whose displacement in a tick is just the allowed one would need two parts wherever ice moves towards it.
@@ -38,8 +38,8 @@ inline constexpr double kStepUnderPressure = 0.025;
 /// one cusp in a step, overlaps along it join, and the hull passes through ice without breaking it. Larger values make
 /// loads depend on the step; smaller values cost time.
 inline constexpr double kManyBends = 0.75;
-/// Mean number of bends in a step below which the number of parts is halved again [-]. It must be less than half of
-/// kManyBends; otherwise the number of parts would change in every other tick.
+/// Mean number of bends in a step below which Pace::finer, the factor on the number of parts, is halved again, down to
+/// 1 [-]. It must be less than half of kManyBends; otherwise the number of parts would change in every other tick.
 inline constexpr double kFewBends = 0.25;
 /// Mean number of bends in a step above which loads depend on the step, if the tick already has kMostParts parts [-].
 /// Such ticks are counted in Counts::crowded_ticks. A larger value would not warn of loads that are too small.
@@ -53,7 +53,8 @@ double allowed_displacement(const ContactSettings& contact, double thickness);
 
 /// Returns the number of equal parts of the next tick, from 1 to kMostParts. It is the smallest number with which every
 /// hull stays within kToleratedExcess times allowed_displacement() relative to the ice that it may reach in the tick,
-/// and with which steps are no longer than Setup::longest_step_by_walls; this number is multiplied by Pace::finer.
+/// and with which steps are no longer than Setup::longest_step_by_walls; this number is multiplied by Pace::finer. The
+/// product is limited to kMostParts; hulls may then move farther than allowed in a step.
 int parts_of_tick(const Setup& setup, const Pace& pace, const Population& population);
 
 /// Updates the pace after a tick with the given numbers of parts and of bends. Returns true if loads depend on the step

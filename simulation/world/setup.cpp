@@ -26,8 +26,9 @@ std::unique_ptr<const fracture::BendingModel> make_bending_model(const FractureS
   return nullptr;  // unreachable: all kinds are handled above
 }
 
-/// Returns the limits of all kinds of ice of a scene: first of Scene::ice, then of each Scene::own_ice. κ l follows
-/// from Eq. (7) of [Sawamura2017].
+/// Returns the limits of all kinds of ice of a scene: first of Scene::ice, then of each Scene::own_ice. κ l, below
+/// which a floe does not break, follows from Eq. (7) of [Sawamura2017]. Below the opening force of a crack as long and
+/// as wide as the ice is thick, no crack is searched.
 std::vector<IceLimits> limits_of(const Scene& scene) {
   const auto limits = [&](const fracture::Ice& ice) -> IceLimits {
     const double breakable = scene.fracture.breakable_size_factor *
@@ -55,7 +56,8 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
   }
   for (const Ship& ship : scene.ships) sailing.push_back(sailing_of(ship, scene.water.water.density));
   const ContactSettings& contact = scene.contact;
-  // In ContactRule, this law sets presses_prescribed and is_depth_bounded.
+  // In ContactRule, this law sets presses_prescribed and is_depth_bounded. It also takes the scene's solver tolerance,
+  // which the law of impulses does not use, and computes the water on the decks of cusps that turn under a hull.
   const bool crushes = contact.law == ContactLaw::kCrush;
   contact_rule = {contact.circle_radius, contact.normal == ContactNormal::kCircleCentres, shortcuts.culls, crushes,
                   crushes};
@@ -83,7 +85,8 @@ Underwater underwater_of(const Hull& hull) {
   const geometry::Box box = bounding_box(hull.waterline);
   const double half_beam = 0.5 * (box.high.y - box.low.y);
   const double middle = 0.5 * (box.high.y + box.low.y);
-  double widest = box.low.x;  // x of the foremost vertex at which the hull has its full beam
+  // x of the foremost vertex at which the hull has its full beam. The tolerance 1e-6 only absorbs rounding.
+  double widest = box.low.x;
   for (const geometry::Point p : hull.waterline) {
     if (std::abs(p.y - middle) > (1 - 1e-6) * half_beam) widest = std::max(widest, p.x);
   }

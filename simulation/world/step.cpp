@@ -52,7 +52,7 @@ void count(const dynamics::SolverResult& result, Counts& counts) {
   counts.largest_residual = std::max(counts.largest_residual, result.residual);
 }
 
-/// Wakes the bodies of all contacts that pressed.
+/// Wakes the bodies of all contacts that pressed. A sleeping floe that is touched without an impulse stays asleep.
 void wake_pressed(const std::vector<dynamics::Contact>& contacts, Population& population) {
   for (const dynamics::Contact& c : contacts) {
     if (c.total_normal_impulse() == 0) continue;
@@ -101,6 +101,7 @@ void push_ship(dynamics::Bodies& bodies, BodyIndex ship, dynamics::Planar in_shi
 }  // namespace
 
 void find_pairs(const Step& step, Population& population) {
+  // Contacts are found at the start of the step, so the boxes need no time ahead; next_parts() uses a whole tick.
   population.pairs.update(population.bodies, population.awake, 0, step.threads);
 }
 
@@ -344,6 +345,7 @@ Step step_of(const Setup& setup, const Clock& clock, int part, int parts) {
   return step;
 }
 
+// enter_exchange() adds the change of each energy flow to the sum to which the audit compares its imbalance.
 void end_tick(World& w) {
   const bool crushes = w.setup.scene.contact.law == ContactLaw::kCrush;
   const AuditSums before = w.accounts.audit;
@@ -375,6 +377,7 @@ int next_parts(World& world) {
 
 }  // namespace
 
+// If a stage sets World::failure, the other stages of that part still run, and the tick ends without its later parts.
 void step(World& world) {
   const ContactLaw law = world.setup.scene.contact.law;
   Counts& counts = world.accounts.counts;

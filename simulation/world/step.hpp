@@ -10,10 +10,10 @@ namespace polynya::simulation {
 // One tick of a run, and the stages of a time step. Every stage is called with the same step and with the parts of the
 // world that it needs: a parameter that is a reference to const is only read, and any other reference is changed. The
 // stages before integrate_motion() see the bodies at step.begin, the later ones at step.end. Only the stages from
-// apply_fractures() to surface_ice() create and remove floes; they run on one thread, in an order that does not depend
-// on the number of threads. The functions are grouped by subject; stages_of() has the order in which they run. With the
-// law of crushing ice, apply_forces() and push_ships() come before find_pairs(). end_tick(), and not a step, calls
-// cut_through_floes(), put_to_rest() and sample_loads().
+// apply_fractures() to surface_ice(), and cut_through_floes() at the end of a tick, create and remove floes. They run
+// on one thread, in an order that does not depend on the number of threads. The functions are grouped by subject;
+// stages_of() has the order in which they run. With the law of crushing ice, apply_forces() and push_ships() come
+// before find_pairs(). end_tick(), and not a step, calls cut_through_floes(), put_to_rest() and sample_loads().
 
 // ---- before the contacts
 
@@ -66,7 +66,8 @@ void solve_crushing(const Setup& setup, const Step& step, Population& population
 /// Law of impulses: computes the impulses of all contacts, and finds the floes that split.
 void solve_collisions(const Setup& setup, const Step& step, Population& population, StepData& data, Accounts& accounts);
 
-/// Removes all velocity of walls that press that is not along their normals.
+/// Keeps only the velocity of pressing walls along their normals, and sets their angular velocity to 0. Without it
+/// contacts would push these walls sideways and turn them.
 void constrain_walls(const Setup& setup, Population& population, AuditSums& audit);
 
 /// Law of crushing ice: removes the bends whose contacts were not loaded up to V_b, the force at which their ice bends.
@@ -76,8 +77,8 @@ void drop_unreached_bends(StepData& data);
 /// other fractures for the records.
 void enter_splits(const Setup& setup, const Step& step, const Population& population, StepData& data);
 
-/// Law of crushing ice: returns a reason to end the run if a load of the step is several times the largest force that
-/// its ice can carry, which is a numerical failure.
+/// Law of crushing ice: returns a reason to end the run if a load of the step is more than four times the largest force
+/// that its ice can carry (kOverloadFactor in ice/prescribed.cpp), which is a numerical failure.
 std::optional<std::string> overload_of(const Setup& setup, const Step& step, const Population& population,
                                        const StepData& data);
 
@@ -95,8 +96,8 @@ void tally_loads(const Population& population, const std::vector<dynamics::Conta
 
 // ---- forces and motion
 
-/// Applies the drag of the water and the stress of the wind to all awake floes. The water's forces on hulls are applied
-/// by sail().
+/// Applies the drag of the water and the stress of the wind to all awake floes. Hulls have no DragShape; the water's
+/// forces on ships are applied by sail().
 void apply_forces(const Setup& setup, const Step& step, Population& population, AuditSums& audit);
 
 /// Gives ships their constant thrust and, if there are any, the forces from outside in each ship's frame [N, N m].
@@ -125,15 +126,16 @@ std::optional<std::string> integrate_motion(const Step& step, Population& popula
 /// Breaks the floes whose fractures were decided in the step. Ships are braked by the cusps that they accelerate.
 void apply_fractures(const Setup& setup, const Step& step, StepData& data, Population& population, Books books);
 
-/// Cuts off overlaps that no contact can part, and makes them brash.
+/// Cuts off overlaps that no contact can part, and makes them brash, by both laws. Without it two bodies would stay one
+/// inside the other.
 void grind_inseparable_overlaps(const Setup& setup, const Step& step, const StepData& data, Population& population,
                                 Books books);
 
 /// Law of crushing ice: cuts the outlines of hulls of prescribed motion out of fast ice. The ice becomes brash.
 void carve_channels(const Setup& setup, const Step& step, const StepData& data, Population& population, Books books);
 
-/// Law of crushing ice: cuts crushed ice off floes, of contacts that have ended and of contacts that have crushed much
-/// ice. The ice becomes brash.
+/// Law of crushing ice: cuts crushed ice off floes, after a contact has ended, or when it has crushed 0.5 % of the area
+/// of the smaller body (kLeastCrushedShare in ice/overlaps.cpp). The ice becomes brash.
 void shed_crushed_ice(const Setup& setup, const Step& step, const StepData& data, Population& population, Books books);
 
 /// Law of crushing ice: cuts floes that a hull has divided into their remaining parts. The ice inside the hull becomes
@@ -163,7 +165,8 @@ void put_to_rest(const Setup& setup, const StepData& data, Population& populatio
 /// before they were found and that are not booked yet (CarriedLoad) are kept for the next interval.
 void sample_loads(const Setup& setup, const Clock& clock, const Population& population, Books books);
 
-/// A stage of a step: its name, and a function that calls it with the parts of the world that it needs.
+/// A stage of a step: its name, by which the benchmarks list its time, and a function that calls it with the parts of
+/// the world that it needs.
 struct Stage {
   std::string_view name;
   void (*run)(World& world, const Step& step);
@@ -179,7 +182,8 @@ Step step_of(const Setup& setup, const Clock& clock, int part, int parts);
 /// divided are cut, floes are put to sleep, and samples are taken.
 void end_tick(World& world);
 
-/// Advances the world by one tick: executes all stages in each of the tick's parts (parts.hpp).
+/// Advances the world by one tick: executes all stages in each of the tick's parts (parts.hpp). If a stage finds that
+/// the run cannot continue, it sets World::failure, and the later parts of the tick are left out.
 void step(World& world);
 
 }  // namespace polynya::simulation

@@ -130,7 +130,8 @@ exact::Ring write_exactly(const LocalCut& cut, const PieceRing& ring) {
 }
 
 // Returns 1 if the exact loop runs counter-clockwise, −1 if clockwise, 0 if it has no area. The area of the rounded
-// loop decides if it exceeds all rounding errors; otherwise the exact area is computed.
+// loop decides if it exceeds the error of its sum and twice the change by rounding its vertices (RingArea::step_area);
+// otherwise the exact area is computed.
 int orientation_of(const LocalCut& cut, const PieceRing& ring) {
   const double clear = ring.area.doubt + 2 * ring.area.step_area;
   if (ring.area.area > clear) return 1;
@@ -497,6 +498,8 @@ CutResult whole_shape_inside(const Polygon& shape) {
   return result;
 }
 
+// Returns true if the planned pieces stay valid after rounding: no edge has moved onto another, no ring has been swept
+// over, and every ring keeps its orientation. Otherwise the pieces are rounded from their exact shapes (round_exactly).
 bool is_cleanly_rounded(const LocalCut& cut, const std::vector<PiecePlan>& plans, const Box& tool_box,
                         const std::vector<EdgeId>& near_tool) {
   if (!changed_edges_are_apart(cut, tool_box, near_tool)) return false;
@@ -517,11 +520,11 @@ std::optional<CutOutcome> cut_locally(const Polygon& shape, const Tool& tool) {
   const Box tool_box = bounding_box(tool.points);
   const std::vector<EdgeId> near_tool = edges_near(rings, tool_box);
   std::optional<std::vector<Node>> nodes = find_nodes(rings, tool, near_tool);
-  if (!nodes) return {};
+  if (!nodes) return {};  // rings touch each other at a node
   LocalCut cut{rings, tool, std::move(*nodes), {}, {}, {}};
   cut.graph = trace_faces(rings, tool, cut.nodes);
   // A chord between two rings makes one boundary of both. If they touched before, that boundary touches itself away
-  // from all nodes.
+  // from all nodes. An inconsistent graph means that the shape or the tool was not valid.
   if (!cut.graph.is_consistent || (cut.graph.rings_met > 1 && has_touching_rings(shape))) return {};
   if (cut.graph.walks.empty()) {
     switch (relate_apart(cut, shape)) {
