@@ -5,7 +5,7 @@ Item = typing.TypeVar("Item")
 
 
 class Named(typing.List[Item]):
-    """A list whose items can also be accessed by their `name`: ships["icebreaker"]."""
+    """A list whose items can also be accessed by their `name`: simulation.ships["icebreaker"]."""
 
     def __getitem__(self, key):
         if not isinstance(key, str):
