@@ -11,8 +11,8 @@ import signal
 import sys
 import warnings
 
-# Exit codes, equal to those of console.hpp: out of memory, a file or stream or missing package, an error of Polynya
-# itself, and the reader of stdout or stderr has ended.
+# Exit codes with the values of console.hpp. Here FAILED means that memory ran out; INPUT_OUTPUT covers files, streams
+# and missing packages; DEFECT is an error of Polynya; CLOSED_PIPE means that the reader of the output has ended.
 FAILED, INPUT_OUTPUT, DEFECT, CLOSED_PIPE = 4, 5, 70, 141
 
 

@@ -28,8 +28,8 @@ class Recording:
         self.close("" if kind is None else f"{kind.__name__}: {error}".rstrip(": "))
 
     def close(self, stopped_by=""):
-        """Ends the run at the present time. With a reason, which the folder states, the run counts as stopped and not as
-        finished. Later steps are not recorded. A second call does nothing."""
+        """Ends the run at the present time. With a reason, which the folder states, the run counts as stopped and not
+        as finished. Later steps are not recorded. A second call does nothing."""
         if not self._is_open:
             return
         self._is_open = False

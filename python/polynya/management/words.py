@@ -76,8 +76,8 @@ def of_first(condition, places, body):
 
 
 def table_of(condition, measure):
-    """Rows of text: rank, pattern, mean, remaining load, benefit, lost ice, fields with a hit of a ship; the unit of the
-    means; and the places of the ranking, the smallest mean first. All are empty if the measure ranks nothing."""
+    """Rows of text: rank, pattern, mean, remaining load, benefit, lost ice, fields with a hit of a ship; the unit of
+    the means; and the places of the ranking, the smallest mean first. All are empty if the measure ranks nothing."""
     places = condition.ranked(measure)
     if not places:
         return [], "", places

@@ -92,8 +92,8 @@ class Motions:
         return (last >= 0) & (last == self._last_record(floes, min(after + 1, len(self.times) - 1)))
 
     def ships_at(self, time):
-        """Returns an array with a row for every ship, structure and wall: x, y [m], heading [rad] and their rates; no rows if
-        there is no frame."""
+        """Returns an array with a row for every ship, structure and wall: x, y [m], heading [rad] and their
+        rates; no rows if there is no frame."""
         if len(self.times) == 0:
             return numpy.empty((0, 6))
         after = int(numpy.searchsorted(self.times, time, side="right"))
