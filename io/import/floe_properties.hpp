@@ -26,11 +26,12 @@ struct FloeProperties {
   std::optional<double> compressive_strength;  ///< [Pa]
   std::optional<double> tensile_strength;      ///< [Pa]
   std::optional<double> fracture_toughness;    ///< [Pa √m]
-  std::optional<double> velocity_x;            ///< velocity over ground along the first axis of the coordinates [m/s]
-  std::optional<double> velocity_y;            ///< along the second axis [m/s]
-  std::optional<double> angular_velocity;      ///< counter-clockwise [°/s]
-  std::optional<bool> is_fast;                 ///< true: fast ice, which keeps its velocity whatever presses on it
-  std::optional<std::string> under_hull_of;    ///< name of the ship under which the floe is, if it is submerged
+  /// Velocity over ground along the first axis of the coordinates [m/s]. An import turns it to the axes of the plane.
+  std::optional<double> velocity_x;
+  std::optional<double> velocity_y;          ///< along the second axis [m/s]
+  std::optional<double> angular_velocity;    ///< counter-clockwise [°/s]
+  std::optional<bool> is_fast;               ///< true: fast ice, which keeps its velocity whatever presses on it
+  std::optional<std::string> under_hull_of;  ///< name of the ship under which the floe is, if it is submerged
   std::optional<double> under_hull_path;  ///< distance that this ship's hull has moved over it since it went under [m]
   friend bool operator==(const FloeProperties&, const FloeProperties&) = default;
 };

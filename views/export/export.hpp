@@ -60,8 +60,8 @@ io::Result<VtkExport> export_vtk(const io::Run& run, const io::FrameSelection& s
 struct LayerPlane {
   /// Coordinate system that PROJ knows (io::find_crs), for example "OGC:CRS84"; empty: metres of the scene's plane.
   std::string system;
-  /// Largest error of an edge [m], as in an import (io/import/plane.hpp). Smaller values add more points to edges. It
-  /// is not used if `system` is empty.
+  /// Largest error of an edge [m], as in an import (io/import/plane.hpp). Smaller values add more points to edges; 0
+  /// adds none. It is not used if `system` is empty.
   double tolerance = io::kEdgeTolerance;
 };
 

@@ -46,8 +46,8 @@ def ten_thicknesses(curve):
 
 
 def print_table(rows):
-    """Prints the rows of a curve and the meaning of their marks. "not steady": even in the
-    longest run the mean speed is less certain than --error asks for."""
+    """Prints the rows of a curve and the meaning of their marks. "not steady": even in the longest run the mean speed
+    is less certain than --error asks for."""
     print(
         f"{'h [m]':>7} {'v [m/s]':>10}{'± scatter':>10}{'[kn]':>8}   {'contact [kN]':>13}{'under hull':>12}   "
         f"{'Lindqvist':>10}{'Riska':>8}{'Spencer-Jones':>15}"
