@@ -26,11 +26,12 @@ struct FloeProperties {
   std::optional<double> compressive_strength;  ///< [Pa]
   std::optional<double> tensile_strength;      ///< [Pa]
   std::optional<double> fracture_toughness;    ///< [Pa √m]
-  std::optional<double> velocity_x;            ///< velocity over ground along the first axis of the coordinates [m/s]
-  std::optional<double> velocity_y;            ///< along the second axis [m/s]
-  std::optional<double> angular_velocity;      ///< counter-clockwise [°/s]
-  std::optional<bool> is_fast;                 ///< true: fast ice, which keeps its velocity whatever presses on it
-  std::optional<std::string> under_hull_of;    ///< name of the ship under which the floe is, if it is submerged
+  /// Velocity over ground along the first axis of the coordinates [m/s]. An import turns it to the axes of the plane.
+  std::optional<double> velocity_x;
+  std::optional<double> velocity_y;          ///< along the second axis [m/s]
+  std::optional<double> angular_velocity;    ///< counter-clockwise [°/s]
+  std::optional<bool> is_fast;               ///< true: fast ice, which keeps its velocity whatever presses on it
+  std::optional<std::string> under_hull_of;  ///< name of the ship under which the floe is, if it is submerged
   std::optional<double> under_hull_path;  ///< distance that this ship's hull has moved over it since it went under [m]
   friend bool operator==(const FloeProperties&, const FloeProperties&) = default;
 };
@@ -46,7 +47,7 @@ struct FloeProperty {
 };
 std::span<const FloeProperty> floe_properties();
 
-/// Number of properties of ice, which come first in floe_properties().
+/// Number of properties of ice, which come first in floe_properties(). Only these have a member of Ice.
 inline constexpr std::size_t kFloeIceProperties = 6;
 /// Returns the properties of ice that a single floe may have. Each is a key of the scene's "ice", of an entry of
 /// "floes", of the properties of a feature in a floe file, and of the floes that a run writes.
@@ -61,8 +62,8 @@ void append_ice(JsonWriter& json, const fracture::Ice& ice);
 struct PropertyName {
   std::string name;   ///< name of the property in the file
   double factor = 1;  ///< by which its values are multiplied to give Polynya's unit
-  /// Values of codes, if the file has codes instead of numbers: {"93", 1.6}. A code that is not listed means that there
-  /// is no value.
+  /// Values of codes, if the file has codes instead of numbers: {"93", 1.6}, in Polynya's unit; `factor` is not used. A
+  /// code that is not listed means that there is no value.
   std::vector<std::pair<std::string, double>> codes = {};
 };
 using PropertyNames = std::map<std::string, PropertyName, std::less<>>;  ///< by Polynya's key
@@ -70,7 +71,7 @@ using PropertyNames = std::map<std::string, PropertyName, std::less<>>;  ///< by
 /// How the properties of a file are read.
 struct PropertyRules {
   PropertyNames names;
-  std::vector<double> no_data = {};              ///< numbers that mean "no value", such as -9 or -9999
+  std::vector<double> no_data = {};              ///< numbers in the file that mean "no value", such as -9 or -9999
   std::string no_data_in_words = "--nodata {}";  ///< how a user writes such a number, for messages
 };
 
@@ -78,17 +79,18 @@ struct PropertyRules {
 /// "thickness_m=SA[91:0.95 93:1.6]". Fails with a message if the words are not of this form.
 Result<> add_property_name(std::string_view words, PropertyNames& names);
 
-/// Reads the properties of many features. A text that contains a number is read as the number.
+/// Reads the properties of many features. A text that is only a number is read as the number.
 class PropertyReader {
  public:
   explicit PropertyReader(PropertyRules rules) : rules_(std::move(rules)) {}
 
   /// Reads the properties of one feature. null and a blank text mean "no value". A value that a floe cannot have is
-  /// appended to `wrong`: "property thickness_m: found -0.4, allowed: a number from 0.001 to 20 [m]". An id that is not
-  /// a whole number is no error; floe_id then has no value.
+  /// appended to `wrong`, and an import then refuses the floe: "property thickness_m: found -0.4, allowed: a number
+  /// from 0.001 to 20 [m]". An id that is not a whole number from 0 on is no error; floe_id then has no value.
   FloeProperties read(const JsonValue& properties, std::string& wrong);
 
-  /// Returns notes on values that were converted when they were read, one for each property and kind of conversion.
+  /// Returns notes on values that were converted or left out when they were read (a text as a number, "no value", a
+  /// code that is not listed), one for each property and kind.
   std::vector<std::string> notes() const;
 
  private:

@@ -23,7 +23,8 @@ namespace polynya::io {
 
 using Checksums = std::map<std::string, Checksum>;  ///< by file name, relative to the folder
 
-/// Returns the checksum of the first `most` bytes of a regular file. The error names the file.
+/// Returns the checksum of the first `most` bytes of a regular file. A resumed run compares with it the part of a
+/// growing file up to its checkpoint. A link is refused. The error names the file.
 Result<Checksum> checksum_of(const std::filesystem::path& file,
                              std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
@@ -37,7 +38,7 @@ Result<> write_checksums(const std::filesystem::path& folder, const Checksums& c
 /// Reads files that were written after the end of a run and adds their checksums. Does nothing if the run has none.
 Result<> add_checksums(const std::filesystem::path& folder, const std::vector<std::string_view>& names);
 
-/// Removes checksums.txt. Every function that changes a finished run calls this first.
+/// Removes checksums.txt if it exists. Every function that changes a finished run calls this first.
 Result<> remove_checksums(const std::filesystem::path& folder);
 
 /// Returns true if checksums.txt was announced and is missing: the program was killed at the end of the run.
@@ -45,12 +46,12 @@ bool lacks_checksums(const std::filesystem::path& folder);
 
 /// Result of comparing the files of a run with their checksums.
 struct FilesCheck {
-  bool has_checksums = false;        ///< false for runs of older versions and for unfinished runs
+  bool has_checksums = false;        ///< checksums.txt exists; false for runs of older versions and unfinished runs
   std::size_t files = 0;             ///< number of compared files
   std::vector<std::string> damaged;  ///< one message for each file that differs: its path and what is wrong
 };
 
-/// Compares the files of a run's folder with its checksums.
+/// Compares the files of a run's folder with its checksums. If checksums.txt itself is damaged, only that is reported.
 FilesCheck check_files(const std::filesystem::path& folder);
 
 }  // namespace polynya::io

@@ -48,7 +48,9 @@ JsonValue json_of(const ShipPreset& preset);
 
 /// Fills in the values of presets for ships of a scene that ask for one. Values of the scene take precedence. So do
 /// values of another alternative, such as a constant speed instead of an engine, or a waterline instead of length and
-/// beam. For messages, the filled-in values have the place at which the scene names the preset.
+/// beam. A ship without an engine does not get the preset's steering. A ship with an unknown preset gets the values of
+/// the preset "reference" and keeps its key "ship", which is then reported. For messages, the filled-in values have the
+/// place at which the scene names the preset.
 void fill_in_presets(JsonValue& scene);
 
 }  // namespace polynya::io

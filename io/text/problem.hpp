@@ -21,7 +21,7 @@ namespace polynya::io {
 /// severity and message.
 std::string to_json_text(const std::vector<Problem>& problems);
 
-/// Returns " at (5, 5), (0, 0)" with at most `most` of the places of a fault, for messages; empty if there are none.
+/// Returns " at (5, 5), (0, 0)" with the first `most` places of a fault, for messages; empty if there are none.
 std::string places_in_words(std::span<const geometry::Point> places, std::size_t most);
 
 /// Returns a count with its noun: "1 floe", "2 floes". `plural` is for nouns whose plural is not formed by an s: "2
@@ -32,10 +32,12 @@ std::string counted(Count count, std::string_view noun, std::string_view plural 
                      count == 1 || !plural.empty() ? "" : "s");
 }
 
-/// Returns a value as messages show it: "-0.5", "\"nevle\"", "a list of 3".
+/// Returns a value as messages show it: "-0.5", "\"nevle\"", "a list of 3", "an object". A text is cut to 60 bytes.
 std::string show(const JsonValue& value);
 
 /// Returns the candidate with the smallest edit distance from a word, or "" if no candidate is near enough to be meant.
+/// A word may differ by a third of its length, but at least by two edits, or by one if it has up to four letters. A
+/// forgotten or wrong unit ("thickness" for "thickness_m") counts as one edit.
 std::string nearest(std::string_view word, const std::vector<std::string_view>& candidates);
 
 /// A text that replaces a part of a source: an option of the command line, or a line of another file.
@@ -68,6 +70,7 @@ class ProblemCollector {
               std::string suggestion = {});
   /// Adds the faults that the parser found in a source.
   void add_faults(std::size_t source, const std::vector<JsonFault>& faults);
+  /// Number of all problems so far, including those beyond kMost.
   std::size_t count() const { return entries_.size() + beyond_; }
 
   /// Returns the problems in the order of sources and places. If there were more than kMost, the last one states how

@@ -11,6 +11,8 @@ import signal
 import sys
 import warnings
 
+# Exit codes with the values of console.hpp. Here FAILED means that memory ran out; INPUT_OUTPUT covers files, streams
+# and missing packages; DEFECT is an error of Polynya; CLOSED_PIPE means that the reader of the output has ended.
 FAILED, INPUT_OUTPUT, DEFECT, CLOSED_PIPE = 4, 5, 70, 141
 
 
@@ -61,7 +63,9 @@ def report(message):
 
 
 def end_of(name, error):
-    """Prints the message for an exception that ended a command. Returns the exit code."""
+    """Prints the message for an exception that ended a command. Returns the exit code. An InputError has its own code
+    and states its places itself. A SystemExit must have a number or nothing; a text in it would be lost, with code
+    0."""
     from .errors import FolderError, InputError, missing_package
 
     command = f"polynya {name}"

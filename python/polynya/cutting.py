@@ -15,7 +15,7 @@ class Cut(typing.NamedTuple):
     #: polygons: lists of numpy rings (n x 2) [m], the outer one first. Rings are open; outer rings run
     #: counter-clockwise, holes clockwise
     pieces: list
-    parts: list  #: "inside" or "outside" the tool, for each piece
+    parts: list  #: "inside" or "outside" the tool, for each piece; always "outside" for a crack
     ledger: dict  #: of the floe: the balance of its area
 
 
@@ -63,10 +63,12 @@ def cut(polygon, *, disc=None, crack=None, by=None, keep="both", repair=None):
     """Cuts a polygon exactly, and accounts for all of its area.
 
     polygon: a ring (n x 2 numbers [m]), a list of rings (holes after the outer one), or an object with
-    __geo_interface__. Give one tool: disc=(x, y, radius [m]); crack=(x, y, angle in degrees from the x axis), a
-    straight line through a point; by=another polygon. keep: "both", "outside" or "inside", for a disc or polygon.
-    repair: "even-odd" or "non-zero", for a polygon that is not valid; without it such a polygon is refused. Returns a
-    Cut. Raises ValueError with the reason if the polygon cannot be cut.
+    __geo_interface__. Rings may be open or closed and may run in either direction. Give one tool: disc=(x, y, radius
+    [m]), a regular polygon inscribed in the circle (docs/cut.md); crack=(x, y, angle in degrees from the x axis), a
+    straight line through a point; by=another polygon. keep: "both", "outside" or "inside", for a disc or polygon; the
+    area of other pieces is removed_m2. A crack keeps all pieces. A polygon that the tool misses stays whole, as an
+    outside piece. repair: "even-odd" or "non-zero", for a polygon that is not valid; without it such a polygon is
+    refused. Tools are not repaired. Returns a Cut. Raises ValueError with the reason if the polygon cannot be cut.
     """
     tools = {"disc": disc, "crack": crack, "polygon": by}
     given = [name for name, tool in tools.items() if tool is not None]

@@ -1,7 +1,8 @@
 """Rare loads: loads that are exceeded once in a long time, estimated from the peaks of a shorter record.
 
 Peaks above a threshold are taken as a Poisson process, and their excess over the threshold as having a generalised
-Pareto distribution [Coles2001]. Its shape is the curvature of the tail: 0 is an exponential tail, below 0 the tail has
+Pareto distribution [Coles2001]. Peaks of one jam follow each other, so only the largest of each burst may be given
+(loads/bursts.py). Its shape is the curvature of the tail: 0 is an exponential tail, below 0 the tail has
 an end, above 0 it is heavy. The estimate is Bayesian, because few peaks say little about the shape. The prior of the
 shape is normal with mean 0 and standard deviation SHAPE_SPREAD, that of the scale is uniform in its logarithm, and that
 of the rate is Jeffreys's 1/√rate. Intervals contain the fraction LEVEL of the posterior. How often they contain the
@@ -23,8 +24,9 @@ from .statistics import Interval
 LEVEL = 0.90  #: probability of all intervals of this module [-]
 SHAPE_SPREAD = 0.4  #: standard deviation of the prior of the shape [-]; smaller: fits are nearer to an exponential tail
 LEAST_SHAPE, MOST_SHAPE = -0.75, 1.5  #: range of the shape on the grid of the posterior [-]
-LEAST_PEAKS = 20  #: least number of peaks for a fit
-#: Largest ratio of return period to length of the record for which the coverage of intervals was measured [-].
+LEAST_PEAKS = 20  #: least number of peaks for a fit; the callers in loads/ keep to it
+#: Largest ratio of return period to length of the record for which the coverage of intervals was measured [-]. For
+#: longer periods `polynya loads` gives values only with --extrapolate.
 FARTHEST = 10.0
 RESAMPLES = 499  #: number of simulated samples of a test; more: p values are more exact and take longer
 NODES = (71, 61, 25)  #: number of grid points of the posterior for shape, scale and rate
@@ -68,8 +70,8 @@ def best_shape(bent, count):
 
 
 def profile(guess, rows):
-    """For each row of excesses, the largest posterior for ξ/σ as given by the shape `guess` and the row's mean; with
-    the shape and scale there."""
+    """For each row of excesses, the logarithm of the largest posterior at a fixed ξ/σ, with the shape and scale there.
+    ξ/σ is that of a distribution with the shape `guess` and the row's mean."""
     mean, count = rows.mean(axis=1), rows.shape[1]
     ratio = guess / ((1 - guess) * mean)
     ratio = numpy.where(numpy.abs(ratio * mean) < 1e-7, 1e-7 / mean, ratio)
@@ -147,12 +149,13 @@ class Tail:
 
     @functools.cached_property
     def shape(self):
+        """Median of the shape [-], with its interval."""
         shapes, _, weights = self.posterior
         return interval_of(shapes, weights)
 
     @functools.cached_property
     def scale(self):
-        """Most likely scale [N]."""
+        """Median of the scale [N], with its interval."""
         _, scales, weights = self.posterior
         return interval_of(scales, weights)
 
@@ -167,7 +170,8 @@ class Tail:
         return self.count * period / self.hours > 1
 
     def level(self, period):
-        """The value that is exceeded once per period [h] on average [N]: median and interval of the posterior."""
+        """The value that is exceeded once per period [h] on average [N]: median and interval of the posterior.
+        It is never below the threshold, so ask only for periods that the tail reaches."""
         shapes, scales, weights = self.posterior
         logarithms = numpy.maximum(numpy.log(self.rates * period), 0)
         levels = scales[:, None] * stretched(shapes[:, None], logarithms[None, :])

@@ -5,7 +5,8 @@ Item = typing.TypeVar("Item")
 
 
 class Named(typing.List[Item]):
-    """A list whose items can also be accessed by their `name`: ships["icebreaker"]."""
+    """A list whose items can also be accessed by their `name`: simulation.ships["icebreaker"]. A scene
+    gives each ship and structure its own name."""
 
     def __getitem__(self, key):
         if not isinstance(key, str):

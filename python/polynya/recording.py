@@ -12,8 +12,9 @@ class Recording:
     """Writes the folder while the simulation is stepped. The `with` block, or `close()`, ends it.
 
     The folder equals that of `polynya run` for the scene up to the simulated time at which it is closed, byte for byte
-    except for wall times, unless a Python pilot has steered. An exception leaves a run that was stopped, with a
-    checkpoint. `polynya resume` can continue both kinds, with the scene's own pilots."""
+    except for wall times, unless a Python pilot has steered. An exception, or an end before the first step, leaves a
+    run that was stopped, with a checkpoint. `polynya resume` continues a stopped run, and with --until also a finished
+    one, with the scene's own pilots."""
 
     def __init__(self, simulation, folder, overwrite, map):
         self.folder = pathlib.Path(folder)
@@ -27,7 +28,8 @@ class Recording:
         self.close("" if kind is None else f"{kind.__name__}: {error}".rstrip(": "))
 
     def close(self, stopped_by=""):
-        """Ends the run now. With a reason, stops it so that it can be resumed. A second call does nothing."""
+        """Ends the run at the present time. With a reason, which the folder states, the run counts as stopped and not
+        as finished. Later steps are not recorded. A second call does nothing."""
         if not self._is_open:
             return
         self._is_open = False
@@ -37,7 +39,7 @@ class Recording:
 
     @property
     def run(self):
-        """Returns the folder as a polynya.Run. It must be closed."""
+        """Returns the folder as a polynya.Run. Raises UnfinishedError if the recording is not closed or was stopped."""
         from .results.run import Run
         return Run(self.folder)
 
@@ -47,5 +49,6 @@ def record(self, folder, *, overwrite=False, map=True):
 
     Writes a run folder as `polynya run` does (docs/run-folder.md). Call it before the first step. Returns a Recording,
     which ends the folder at the end of a `with` block or by its close(). `map` draws final.svg and final.png at the
-    end. Raises FolderError if the folder cannot be used or written."""
+    end, unless the run was stopped. Raises FolderError if the folder cannot be used or written, and RuntimeError after
+    the first step or if the simulation is recorded already."""
     return Recording(self, folder, overwrite, map)

@@ -1,7 +1,7 @@
 """Objects on a map of a run at a time, as few paths in the world [m]. Maps of figures and of films use it.
 
-Floes outside of the picture are left out, and those of a few pixels become squares of their area. So the time to draw
-a field of 100 000 floes depends on the visible part."""
+Floes outside of the picture are left out, and films, and figures with very many vertices, draw floes of a few pixels as
+squares of their area. So the time to draw a field of 100 000 floes depends on the visible part."""
 from __future__ import annotations
 
 import functools
@@ -10,9 +10,9 @@ import numpy
 from matplotlib.path import Path
 
 # Light ice on medium water, which differ in greyscale; marks use the Okabe–Ito palette [Okabe2008]. Colours as in
-# views/map/final_map.cpp.
+# views/map/final_map.cpp, which draws no channel.
 WATER = "#8fb8d0"
-AT_START = "#a9cadd"
+AT_START = "#a9cadd"  # where ice was at the start; visible where it is open now
 CHANNEL = "#5e93b5"
 ICE = "#ffffff"
 BROKEN_ICE = "#fbeec2"
@@ -27,7 +27,8 @@ MARKS = {"bend": "#0072b2", "split": "#d55e00", "grind": "#7a5c2e"}
 WHOLE, BROKEN, CAME_UP, UNDER = range(4)  # kinds of floes
 COLOURS = (ICE, BROKEN_ICE, RESURFACED_ICE, ICE_UNDER)
 FRACTURES = ("bend", "split", "grind")
-LEAST_PIXELS = 3.0  # √area of the smallest floe that is drawn in its shape [px]
+# √area of the smallest floe that is drawn in its shape instead of as a square [px]. Larger values draw faster.
+LEAST_PIXELS = 3.0
 
 NOTHING = Path(numpy.empty((0, 2)), numpy.empty(0, Path.code_type))
 SQUARE = numpy.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5]])
@@ -110,7 +111,7 @@ class Outlines:
         return self._reach[ids]
 
     def count(self, ids):
-        """Numbers of points in the floes' paths."""
+        """Number of points in the floes' paths together."""
         self.load(ids)
         return int(self._count[ids].sum())
 
@@ -153,7 +154,8 @@ class Scenery:
         self._fracture_points = numpy.column_stack((events["x_m"][order], events["y_m"][order])).astype(float)
 
     def kinds(self, frame):
-        """For each floe of a frame: WHOLE (not broken since the start), BROKEN, CAME_UP or UNDER."""
+        """For each floe of a frame: WHOLE (not broken since the start), BROKEN, CAME_UP (broken, and it or a floe from
+        which it broke came up from under a hull) or UNDER (under a hull now)."""
         births, ids = self.run.births, frame.ids
         kinds = numpy.where(births["generation"][ids] == 0, WHOLE, numpy.where(births["came_up"][ids], CAME_UP, BROKEN))
         kinds[frame.is_under] = UNDER

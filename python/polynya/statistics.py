@@ -9,8 +9,8 @@ import math
 import numpy
 from scipy import special, stats
 
-LEVEL = 0.95
-RESAMPLES = 1000
+LEVEL = 0.95  # default probability of intervals [-]
+RESAMPLES = 1000  # default number of bootstrap samples; more make limits and p values less noisy, and cost time
 
 
 @dataclasses.dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Interval:
 class Fit:
     """A distribution fitted by maximum likelihood. `ks` and `ad` are the Kolmogorov–Smirnov and Anderson–Darling
     distances. Their p values come from a parametric bootstrap, because the parameters were fitted to the same
-    sample."""
+    sample. A small p value speaks against the distribution."""
 
     name: str  # gumbel or weibull
     parameters: dict  # name -> Interval
@@ -119,8 +119,8 @@ def proportion(count, of, level=LEVEL):
 
 
 def cases_needed(values, half_width, level=LEVEL):
-    """Number of cases for which the interval of the mean is at most ± half_width, estimated from the standard deviation
-    of these."""
+    """Total number of cases, these included, for which the interval of the mean is at most ± half_width, estimated from
+    the standard deviation of these."""
     sample = sample_of(values, 2)
     if not half_width > 0:
         raise ValueError(f"found a half width of {half_width}, allowed: a number > 0")
@@ -228,7 +228,8 @@ def fit(name, values, level=LEVEL, seed=0, count=RESAMPLES):
 
 
 def level_interval(name, values, probability, level=LEVEL, seed=0, count=RESAMPLES):
-    """The value that is exceeded with this probability by the fit, with its bootstrap interval."""
+    """The value that is exceeded with this probability by the fit, with its bootstrap interval. Only the size of the
+    sample is checked; call it for samples that `fit` accepts."""
     sample = sample_of(values, 5)
 
     def of(rows):

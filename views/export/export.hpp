@@ -25,8 +25,8 @@ struct VtkPolyData {
     /// Name, with unit, as ParaView shows it.
     std::string name;
     std::vector<double> values;
-    int components = 1;  ///< 1, or 3 for vectors
-    bool is_integer = false;
+    int components = 1;       ///< 1, or 3 for vectors
+    bool is_integer = false;  ///< values are rounded and written as Int64, otherwise as Float64
   };
   std::vector<Column> cell_data;   ///< columns with one row per cell, in VTK's order
   std::vector<Column> point_data;  ///< columns with one row per point
@@ -38,10 +38,9 @@ std::string to_vtp(const VtkPolyData& data);
 
 /// A file of a time series (.pvd).
 struct VtkFile {
-  double time = 0;  ///< [s]
-                    /// Number that distinguishes several files of the same time.
-  int part = 0;
-  std::string name;
+  double time = 0;   ///< [s]
+  int part = 0;      ///< number that distinguishes the files of one time
+  std::string name;  ///< path relative to the .pvd file
 };
 std::string to_pvd(const std::vector<VtkFile>& files);
 
@@ -53,20 +52,24 @@ struct VtkExport {
 };
 
 /// Writes a run for ParaView (docs/export.md): run.pvd, and for each selected frame the ice, the ships, their loads and
-/// the contacts. The error names the file that could not be written.
+/// the contacts, and in scenes with a draught the ice under hulls. The error names the file that could not be written.
 io::Result<VtkExport> export_vtk(const io::Run& run, const io::FrameSelection& selection,
                                  const std::filesystem::path& folder);
 
 /// Coordinates in which the layers of a run are written.
 struct LayerPlane {
-  std::string system;  ///< coordinate system, "OGC:CRS84" or "EPSG:3413"; empty: metres of the scene's plane
-  double tolerance = io::kEdgeTolerance;  ///< largest error of an edge [m], as in an import (io/import/plane.hpp)
+  /// Coordinate system that PROJ knows (io::find_crs), for example "OGC:CRS84"; empty: metres of the scene's plane.
+  std::string system;
+  /// Largest error of an edge [m], as in an import (io/import/plane.hpp). Smaller values add more points to edges; 0
+  /// adds none. It is not used if `system` is empty.
+  double tolerance = io::kEdgeTolerance;
 };
 
 /// Returns the layers of a run at a time [s] as GeoJSON FeatureCollections, each with its file name: floes, fractures
-/// until then, and for each ship its track and its hull. A coordinate system needs a scene with an origin. Points are
-/// added to edges that are not straight in it. In degrees, longitudes continue beyond 180 so that no floe is divided,
-/// and a floe over a pole has a seam to the pole (io/import/degrees.hpp).
+/// until then, the tracks, waterlines and channels of the ships, and in scenes with a draught the ice under hulls. A
+/// coordinate system needs a scene with an origin. Points are added to edges that are not straight in it. In degrees,
+/// longitudes continue beyond 180 so that no floe is divided, and a floe over a pole has a seam to the pole
+/// (io/import/degrees.hpp). Positions between two frames are interpolated.
 io::Result<std::vector<std::pair<std::string, std::string>>> geojson_layers(const io::Run& run, double time,
                                                                             const LayerPlane& plane);
 
@@ -78,9 +81,10 @@ struct ContinuedScene {
   std::vector<std::string> left_out;  ///< parts of the run's state that the files do not contain, in words
 };
 
-/// Returns a scene with the state of a run at its last frame up to a time [s]: ships and floes have their places,
-/// velocities, lineage and thickness at that frame, and everything else is as in the run's scene.json. The clock starts
-/// at 0.
+/// Returns a scene with the state of a run at its last frame up to a time [s], or at its first frame if there is none:
+/// ships, walls and floes have their places, velocities, lineage and ice properties at that frame. The rest is as in
+/// the run's scene.json, but the clock starts at 0, so the end time, the tables of pilots, drift and wind, and the tide
+/// are shifted. Fails if the run has no frames.
 io::Result<ContinuedScene> continued_scene(const io::Run& run, double time);
 
 }  // namespace polynya::views

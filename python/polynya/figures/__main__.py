@@ -14,7 +14,8 @@ def note(words):
 
 
 def problem_of(options, runs):
-    """Returns a message about options that do not apply to these runs; None if there is none."""
+    """Returns a message about options that do not apply to these runs; None if there is none. The times of --at must
+    lie within the first run; a map of another run that is shorter shows its end."""
     from . import loads
 
     first = runs[0]
@@ -57,6 +58,8 @@ def pages(options, runs):
 
 
 def draw(options):
+    """Draws the requested figures, and prints their paths. A figure that these runs cannot have is left out with a
+    note, and the exit code is still 0."""
     from polynya.errors import FolderError
     from polynya.results.run import Run
 

@@ -1,8 +1,13 @@
 """The command line of `polynya figures`. Needs neither numpy nor matplotlib."""
 from ..arguments import Parser, choice, choices, number, numbers
 
+#: Figures that can be drawn. Each is written to figure-<name>, in all formats.
 FIGURES = ("floes", "loads", "motion", "sizes", "energy")
+#: Loads that loads.py can draw. "true" draws "mean" and "max" together. "ships" needs a run with several ships or
+#: structures, and "j-over-tau-c" (docs/glossary.md) needs one that splits floes by the model `michel`.
 LOADS = ("true", "mean", "max", "ships", "j-over-tau-c")
+#: Styles of page.py, in its order. A style sets the width (85, 170 and 300 mm), the largest height, the sizes of text
+#: and the number of maps if no times are given.
 STYLES = ("one-column", "two-columns", "slides")
 FORMATS = ("svg", "png", "pdf")
 EXAMPLES = (
@@ -18,6 +23,7 @@ Exit codes: 0 done, 2 usage, 5 input/output, or numpy or matplotlib is missing.
 
 
 def command_line():
+    """Returns the parser. --from and --until also limit the times of the maps that are chosen automatically."""
     parser = Parser("polynya figures", "Draw figures of a run, or of several side by side, for print", EXAMPLES, REST)
     parser.add("runs", "The run folders", nargs="+", metavar="RUN")
     meaning = "Figures to draw, separated by commas; all if not given"

@@ -14,7 +14,7 @@ from polynya.naming import names_of
 from polynya.results.run import Run
 from polynya.results.tables import read_csv
 
-COMMON = 2.5  # length of panels if nothing states it [m]
+COMMON = 2.5  # length of panels if neither --panel nor the scene states it [m]
 
 
 class Waterline:
@@ -60,15 +60,15 @@ class Loads:
 
     name: str
     ship: str
-    is_fixed: bool
+    is_fixed: bool  #: True without propulsion; then loads are also drawn by direction
     waterline: Waterline
     panel_m: float
     cases: list[Case]
     peaks: dict
     panels: Optional[dict]
     interval_s: float  #: length of the interval of a row of panels [s]
-    left_out: int  #: number of peaks below the smallest that the runs record
-    beyond_limit: int = 0  #: number of peaks beyond the number that the runs record
+    left_out: int  #: number of peaks below the smallest that the runs record, in the whole runs
+    beyond_limit: int = 0  #: number of peaks beyond the number that the runs record, in the whole runs
     gauge_s: float = 0.0  #: time constant of the gauge that measured the peaks
     ended: int = 0  #: number of runs that end before the first time that counts, and are left out
 
@@ -98,6 +98,7 @@ class Loads:
         return dataclasses.replace(self, cases=cases, **chosen)
 
     def panel_of(self, arc):
+        """Numbers of the panels at these positions [m]: 0 is the first one from the stem to port, -1 to starboard."""
         return numpy.floor(numpy.asarray(arc) / self.panel_m).astype(int)
 
 
@@ -169,7 +170,9 @@ def with_time(cases, scenes, start, end):
 
 def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
     """Reads the peaks, and if they were recorded the panels, of a ship or structure (the first by default). Only times
-    from `start` [s] of each run count. `panel` is the length of the panels by which peaks are counted [m]."""
+    from `start` [s] of each run count. `panel` is the length of the panels by which peaks are counted [m]. Recorded
+    panels are used only if all runs have them, with this length. Of the waterlines of runs only the numbers of vertices
+    are compared. Unfinished runs count up to their last record."""
     cases, scenes, peaks, panels, left_out, beyond, end = [], [], [], [], 0, 0, 0.0
     first = None
     for number, run_folder in runs_of(folder):
@@ -206,7 +209,8 @@ def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
 
 
 def facing(loads, columns):
-    """Directions of the middles of panels from the middle of the waterline, as angles from ahead to port [rad]."""
+    """Directions of the middles of panels with these numbers from the middle of the waterline, as angles from ahead to
+    port [rad]."""
     half = loads.waterline.length / 2
     low = numpy.clip(columns * loads.panel_m, -half, half)
     high = numpy.clip((columns + 1) * loads.panel_m, -half, half)

@@ -16,12 +16,14 @@ def unit_of(measure, most):
 
 
 def interval(mean, factor=1.0):
+    """"12.3 ± 0.45": a mean and half of its interval, both divided by `factor`. Without ± for a single field of ice."""
     half = "" if mean.half is None else f" ± {float(f'{mean.half / factor:.2g}'):.6g}"
     return f"{plain(mean.value / factor)}{half}"
 
 
 def left(place):
-    """The load with management as a percentage of that without."""
+    """The load with management as a percentage of the load without, with limits in brackets. No limits are given for a
+    single field of ice, or if the load without management may be 0."""
     if place.left is None:
         return ""
     ratio, low, high = place.left
@@ -30,7 +32,7 @@ def left(place):
 
 
 def lost(condition, name):
-    """Ice that left the scene: its mean area and its fraction of all ice."""
+    """Ice that left the scene by a rule: means over fields of its area and of its fraction of all ice at the start."""
     found = condition.lost.get(name)
     if not found:
         return ""
@@ -74,7 +76,8 @@ def of_first(condition, places, body):
 
 
 def table_of(condition, measure):
-    """Rows of text: rank, pattern, mean, remaining load, benefit, lost ice, fields with a hit of a ship."""
+    """Rows of text: rank, pattern, mean, remaining load, benefit, lost ice, fields with a hit of a ship; the unit of
+    the means; and the places of the ranking, the smallest mean first. All are empty if the measure ranks nothing."""
     places = condition.ranked(measure)
     if not places:
         return [], "", places
@@ -97,7 +100,8 @@ def aligned(rows):
 
 
 def lines_of_ships(found):
-    """A table of the encounters of the protected body with other ships."""
+    """A table of the encounters of the protected body with other ships: the largest load of a contact is a mean over a
+    row of forces.csv, and the distance is the smallest one in all fields. No lines without other ships."""
     rows = [["", "pattern", "fields with a hit", "largest load of a hit", "closest distance"]]
     for condition in found.conditions:
         hits = {name: cautions.hits_of(condition, name) for name in found.patterns}
@@ -138,6 +142,7 @@ def lines_of(found):
 
 
 def write_ranking(found, path):
+    """Writes the rankings of all conditions and measures in N, m and m², without the rounding of the printed table."""
     with writing(path, newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["condition", "measure", "rank", "pattern", "fields", "mean", "half_of_95_percent",
@@ -158,7 +163,7 @@ def write_ranking(found, path):
 
 
 def write_means(found, path):
-    """Writes the means of all measures by condition and pattern."""
+    """Writes the means of all measures of management by condition and pattern, including those that rank nothing."""
     with writing(path, newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["condition", "pattern", "measure", "fields", "mean", "half_of_95_percent"])

@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy
 
 CURVES = (("surge_N", "surge", "#000000"), ("sway_N", "sway", "#d55e00"))
+# Colour of the line at the present (RGBA).
 CURSOR = numpy.array([0x00, 0x72, 0xB2, 0xFF], dtype=numpy.uint8)
-PALE = 0.22
+PALE = 0.22  # opacity of the part of the curve after the present: 0 hides it, 1 draws it in full [-]
 
 
 def thinned(times, values, bins):
-    """Keeps at most two points in each stretch of time: its smallest and largest value, in their order."""
+    """Divides the rows into `bins` stretches of equal numbers and keeps at most two points of each, its smallest and
+    largest value, in their order. A chart has as many stretches as the picture is wide [px], so no peak is lost."""
     if len(times) <= 2 * bins:
         return times, values
     edges = numpy.linspace(0, len(times), bins + 1).astype(int)[:-1]
@@ -21,13 +23,14 @@ def thinned(times, values, bins):
 
 
 def unit_of(largest):
-    """Unit for a force [N] and its name."""
+    """Unit for forces up to `largest` [N], and its name."""
     return next((unit, name) for unit, name in ((1e6, "MN"), (1e3, "kN"), (1.0, "N"))
                 if largest >= 0.5 * unit or unit == 1.0)
 
 
 class History:
-    """A chart at a position of a figure, given as [x, y, width, height] in fractions of the figure."""
+    """A chart at a position of a figure, given as [x, y, width, height] in fractions of the figure, with the size
+    `font` of text [pt]. The figure draws the whole curve once; `draw` then changes only pixels, which is fast."""
 
     def __init__(self, run, ship, look, figure, place, font):
         self.look = look
@@ -71,7 +74,7 @@ class History:
             line.set_linewidth(0.14 * font)
 
     def prepare(self, canvas):
-        """Stores the picture of the whole curve, and makes the curve pale."""
+        """Stores the chart's pixels with a pale curve. Call it once, after the figure has been drawn on `canvas`."""
         self._full = numpy.asarray(canvas.buffer_rgba()).copy()
         box = self.axes.get_window_extent()
         rows = len(self._full)
@@ -81,7 +84,7 @@ class History:
         self._pale = (255 - PALE * (255 - inside)).astype(numpy.uint8)
 
     def draw(self, pixels, time):
-        """Draws the part up to `time` onto a picture of the figure, from the stored picture."""
+        """Makes the curve after `time` [s] pale in the pixels of the drawn figure, and draws a line at that time."""
         share = (time - self.start) / (self.end - self.start) if self.end > self.start else 1.0
         now = self._left + round(min(max(share, 0.0), 1.0) * (self._right - self._left))
         first = max(now, self._left + 2)

@@ -35,7 +35,8 @@ def ship_of(name):
 
 
 def ten_thicknesses(curve):
-    """Ten thicknesses, evenly spaced up to slightly less than that at which Lindqvist's formula stops the ship."""
+    """Ten thicknesses [m], evenly spaced up to slightly less than that at which Lindqvist's formula gives 0.2 m/s. The
+    spacing is a multiple of 0.05 m."""
     thin, thick = 0.05, 5.0
     while thick - thin > 0.01:
         middle = 0.5 * (thin + thick)
@@ -45,6 +46,8 @@ def ten_thicknesses(curve):
 
 
 def print_table(rows):
+    """Prints the rows of a curve and the meaning of their marks. "not steady": even in the longest run the mean speed
+    is less certain than --error asks for."""
     print(
         f"{'h [m]':>7} {'v [m/s]':>10}{'± scatter':>10}{'[kn]':>8}   {'contact [kN]':>13}{'under hull':>12}   "
         f"{'Lindqvist':>10}{'Riska':>8}{'Spencer-Jones':>15}"
@@ -68,7 +71,8 @@ def print_table(rows):
 
 
 def print_sensitivity(found, curve, thicknesses, arguments):
-    """Prints the table of particulars, with a mark at those that nobody stated. Returns it for all thicknesses."""
+    """Prints how much the mean speed by the published formulas changes with each particular of ship and ice, with a
+    mark at those that nobody stated. Returns the table for all thicknesses."""
     is_given = {"flexural_strength": arguments.flexural_strength is not None,
                 "friction": arguments.friction is not None}
     of = (curve.hull, curve.engine, curve.ice)
@@ -92,7 +96,8 @@ def report_progress(done, total, row):
 
 
 def run_all(curve, wanted, jobs):
-    """Runs all thicknesses and reports progress. Returns the rows, thinnest ice first."""
+    """Runs all thicknesses, `jobs` at a time, and reports progress. Thick ice, in which ships are slow and runs long,
+    is started first. Returns the rows, thinnest ice first. An error cancels the thicknesses that have not started."""
     rows = {}
     with concurrent.futures.ThreadPoolExecutor(max(1, jobs)) as pool:
         futures = {pool.submit(curve.point, h): h for h in sorted(wanted, reverse=True)}

@@ -1,5 +1,6 @@
 """Fits Colbourne's formula for the resistance of broken ice to points: R = ½ k F⁻ᵇ ρ_i B h V² Cⁿ with F = V / √(g h
-C)."""
+C). B is the beam, h the thickness, C the cover, V the speed and ρ_i the density of the ice; the floe size is not in
+it."""
 import dataclasses
 import math
 
@@ -17,7 +18,8 @@ class NotEnough(Exception):
 
 @dataclasses.dataclass
 class Fit:
-    """Coefficients with their standard errors; n is None if all points have the same cover."""
+    """Coefficients with their standard errors. If all points have the same cover, n is None, and k contains the effect
+    of the cover."""
 
     k: float
     k_error: float
@@ -44,7 +46,8 @@ def scale(point, beam, density):
 
 
 def fit(points, resistances, beam, density):
-    """Fits by least squares of the logarithm of the resistance [N]. Points are mappings; resistances must be > 0."""
+    """Fits by least squares of the logarithm of the resistance [N]. Points are mappings; resistances must be > 0.
+    Raises NotEnough if there are too few points, or if they have only one Froude number."""
     has_covers = len({point["cover"] for point in points}) > 1
     columns = [np.ones(len(points)), [-math.log(froude(point)) for point in points]]
     if has_covers:

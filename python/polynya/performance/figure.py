@@ -19,6 +19,8 @@ BLUE, RED = "#0072b2", "#d55e00"
 WIDTH, HEIGHT = 130, 75  # width of the page, height of the panel [mm]
 AROUND = 0.3  # range of thickness shown beside a single one, as a fraction of it
 POINTS = 40  # number of thicknesses for which the formulas are drawn
+# Marks: points that are not supported are hollow, those beyond all formulas have a square around them as well, and
+# design points are triangles.
 THICK = {"marker": "o", "markersize": 3.5, "color": BLUE, "markerfacecolor": "white", "linestyle": "none"}
 BEYOND = {"marker": "s", "markersize": 7, "color": RED, "markerfacecolor": "none", "linestyle": "none"}
 REPORTED = {"marker": "^", "markersize": 5, "color": RED, "linestyle": "none"}
@@ -54,7 +56,8 @@ def draw_formulas(axes, rows):
 
 
 def draw_points(axes, rows):
-    """Draws the points of the simulation with their marks. Returns the legend entries."""
+    """Draws the points of the simulation with their marks and the 95 % interval of the run's scatter (1.96 standard
+    errors). Returns the legend entries."""
     thickness, speed = ([row[key] for row in rows] for key in ("thickness_m", "speed_m_per_s"))
     scatter = [1.96 * row["error_m_per_s"] for row in rows]
     of_points = axes.errorbar(thickness, speed, yerr=scatter, fmt="o-", color=BLUE, markersize=3.5, linewidth=1.2,

@@ -1,5 +1,6 @@
 """Positions of all bodies at any time of a run, from frames.bin (docs/run-folder.md). Between frames, motion is
-linear."""
+linear. A frame has a record of every ship, but of a floe only if it deviates from its last record, carried on at
+constant velocity, by more than a tolerance."""
 from __future__ import annotations
 
 import numpy
@@ -13,8 +14,9 @@ FLOE_RECORD = numpy.dtype([("floe", "<i8"), ("motion", "<f8", 6)])
 
 
 class Motions:
-    """Records of a run's frames: for ships x, y [m], heading [rad] and their rates, for floes the same with the
-    angle."""
+    """Records of a run's frames: for ships x, y [m], heading [rad] and their rates, for floes the same with the angle.
+    Angles are not wrapped, so they can be interpolated. `floes` is the number of floes of the run; records of floes
+    with larger ids, which floes.ndjson of a killed run may lack, are ignored."""
 
     def __init__(self, path, floes):
         data = read_bytes(path)
@@ -59,8 +61,8 @@ class Motions:
         return numpy.where(after > first, numpy.maximum(found, first), -1)
 
     def floes_at(self, floes, time):
-        """Returns an array of n × 6 for the floes with these ids: x, y [m], angle [rad] and their rates; NaN for a floe
-        that no frame has."""
+        """Returns an array of n × 6 for the floes with these ids: x, y of the centre of mass [m], angle [rad] and
+        their rates; NaN for a floe that no frame has."""
         found = numpy.full((len(floes), 6), numpy.nan)
         if len(self._motion) == 0:
             return found
@@ -90,7 +92,8 @@ class Motions:
         return (last >= 0) & (last == self._last_record(floes, min(after + 1, len(self.times) - 1)))
 
     def ships_at(self, time):
-        """The same for every ship and structure; no rows if there is no frame."""
+        """Returns an array with a row for every ship, structure and wall: x, y [m], heading [rad] and their
+        rates; no rows if there is no frame."""
         if len(self.times) == 0:
             return numpy.empty((0, 6))
         after = int(numpy.searchsorted(self.times, time, side="right"))

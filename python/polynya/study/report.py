@@ -16,8 +16,11 @@ from .gather import TABLE, gather
 from .sample import QUANTILE, choices_of, fits_of, read_sample, refuted
 
 PAGE = "study.html"
+# Largest number of finished cases for which --players auto makes players, and of rows in the page's table of cases.
 MOST_PLAYERS, MOST_ROWS = 250, 2000
-RELATIVE_WIDTH = 0.05  # relative half-width of the interval for which "cases needed" is computed
+# Relative half-width of the interval for which "cases needed" is computed [-]. The column cases_for_5_percent and the
+# page state it in words.
+RELATIVE_WIDTH = 0.05
 
 
 def report(study, players):
@@ -106,6 +109,8 @@ def statistics_of(sample, choices):
 
 
 def fit_columns(values):
+    """Columns of the fits to peaks: parameters, tests, and the value that one run of a hundred exceeds. A refuted fit
+    has that value under another name, with a note, so that it is not used by mistake."""
     columns = {}
     for name, fitted in fits_of(values).items():
         if isinstance(fitted, str):
@@ -139,7 +144,7 @@ def write_csv(path, rows):
 
 
 def make_players(study, sample, players):
-    """Makes the players of kept runs that have none yet."""
+    """Makes the players of kept runs that have none yet. A failure is printed and does not change the exit code."""
     numbers = sample.columns["case"].astype(int).tolist()
     runs = [study.case_folder(n) / RUN for n in numbers]
     wanted = [run for run in runs if (run / "frames.bin").exists() and not (run / "view.html").exists()]
@@ -218,7 +223,7 @@ def statistics_table(rows, group_by):
 
 
 def of_fit(row, name, factor):
-    """The value that a fit exceeds in one run of a hundred. It is struck through, with the reason, if the fit is
+    """The value that one run of a hundred exceeds by a fit. It is struck through, with the reason, if the fit is
     refuted. Without a fit, the reason for that."""
     note = html.escape(row.get(f"{name}_note", ""))
     level = with_interval(row, f"{name}_exceeded_by_1_percent", factor)
@@ -272,6 +277,7 @@ def name_table(sample):
 
 
 def in_unit(value, factor):
+    """A value for a table: parameters with six digits, converted measures with four."""
     return pictures.in_words(value if factor == 1 else value * factor, 6 if factor == 1 else 4)
 
 

@@ -48,7 +48,8 @@ exec {program} study gather {folder}
 
 
 def chunks_to_run(study, retries_failed=False):
-    """Chunks with a case that has not ended, or whose archive must still be packed."""
+    """Chunks with a case that has not ended, or whose archive must still be packed. With `retries_failed`, failed cases
+    have not ended. A packed chunk is left out even if it has failed cases."""
     ended = {"finished"} if retries_failed else {"finished", "failed"}
     chunks = []
     for chunk in range(study.chunks):
@@ -60,7 +61,8 @@ def chunks_to_run(study, retries_failed=False):
 
 
 def write_scripts(study, options):
-    """Writes array.sbatch and gather.sbatch in the study's folder. Returns their paths, and the number of tasks."""
+    """Writes array.sbatch and gather.sbatch in the study's folder `slurm`. Returns their paths and the number of tasks,
+    or (None, None, 0) if no chunk has a case to run."""
     chunks = chunks_to_run(study, options.retry_failed)
     if not chunks:
         return None, None, 0
@@ -90,6 +92,7 @@ def write_scripts(study, options):
 
 
 def program_path():
+    """Absolute path of the program. Every machine of the cluster must find it there."""
     found = shutil.which(program())
     return pathlib.Path(found or program()).absolute()
 
@@ -108,6 +111,7 @@ def submit(array, gather):
 
 
 def sbatch(words):
+    """Submits a script. Returns the number of the job."""
     if not shutil.which("sbatch"):
         raise StudyError(
             "sbatch is not there: submit on a machine of the cluster, or ./setup.sh slurm for one on this machine", 5
@@ -122,7 +126,9 @@ def sbatch(words):
 
 
 def parallel_line(study, hosts, jobs):
-    """Command line of GNU parallel for these hosts, over the chunks with cases to run."""
+    """The chunks with cases to run, and the command line of GNU parallel that runs them, `jobs` chunks at a time on
+    each of these hosts, or on this machine if there are none. Each chunk runs as many cases at a time as its host has
+    processors."""
     chunks = chunks_to_run(study)
     login = f"--sshlogin {shlex.quote(','.join(hosts))} " if hosts else ""
     command = (
