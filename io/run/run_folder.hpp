@@ -48,7 +48,7 @@ inline constexpr std::string_view kFigureSizes = "figure-sizes.svg";
 inline constexpr std::string_view kFigureEnergy = "figure-energy.svg";
 inline constexpr std::array kFigures{kFigureFloes, kFigureLoads, kFigureMotion, kFigureSizes, kFigureEnergy};
 inline constexpr std::string_view kLoads = "loads";  // a folder, written by `polynya loads`
-/// State before a time step that failed, or before one that broke the balance of ice, energy or momentum.
+/// State before the tick that failed, or that broke the balance of ice, energy or momentum.
 inline constexpr std::string_view kFailure = "failure.bin";
 inline constexpr std::string_view kChecksums = "checksums.txt";     ///< only in a finished run
 inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  ///< a folder, written by write_rejected_cut()
