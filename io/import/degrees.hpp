@@ -24,7 +24,7 @@ geometry::Point in_one_notation(geometry::Point point);
 /// Returns a line or ring in which consecutive longitudes differ by at most 180°, because each edge takes the shorter
 /// way around the Earth. The first point that is not a pole keeps its longitude. A line enters and leaves a pole on the
 /// meridians of its neighbours there, so a pole may become two points. `is_closed`: an edge also leads from the last
-/// point to the first. In a ring around a pole that edge spans a full turn, because no notation is continuous there.
+/// point to the first. In a ring around a pole the longitudes of that edge differ by about a full turn.
 geometry::Ring continuous(const geometry::Ring& points, bool is_closed);
 
 /// Returns a ring without edges that lead to a pole and back on one meridian. They are the seam with which a ring

@@ -65,7 +65,8 @@ struct PlaneSettings {
 /// How the coordinates were projected to the plane.
 struct PlaneReport {
   /// Name in PROJ of the system of the file's coordinates. If an origin was asked for and the file states a place of
-  /// its own, it is that place in words. Empty: the coordinates were taken as metres of the plane.
+  /// its own, it is that place in words. Empty: the file names no system, so that its coordinates were taken as metres
+  /// of the plane, or it states a place and no origin was asked for.
   std::string system;
   std::optional<simulation::GeographicOrigin> origin;  ///< origin of the plane, if it is about one
   bool is_origin_chosen = false;                       ///< true if the program chose the origin

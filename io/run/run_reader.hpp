@@ -47,7 +47,7 @@ class FloeShapes {
     simulation::FloeId parent = simulation::kNoFloe;  ///< floe to which its parts refer
     ShapeParts parts;                                 ///< empty if the shape is stored whole
     std::shared_ptr<const geometry::Polygon> whole;   ///< null if the shape is stored as parts
-    std::vector<std::size_t> ring_sizes;  ///< numbers of vertices of its rings; children's parts are checked
+    std::vector<std::size_t> ring_sizes;  ///< numbers of vertices of its rings, by which parts of children are checked
   };
   const Floe& floe(simulation::FloeId id) const { return floes_.at(static_cast<std::size_t>(id)); }
   std::shared_ptr<const geometry::Polygon> find(simulation::FloeId id) const;

@@ -136,12 +136,13 @@ struct CutFloe {
   /// Number of pieces whose vertices, rounded to the nearest doubles, did not make a valid polygon.
   int snap_rounded = 0;
   double rounding_defect = 0;  ///< area that the rounding of vertices changed [m²]
-  /// Σ exact areas of pieces + removed − floe, over all cuts, as a rational number; "0" unless there is a bug
+  /// Σ exact areas of the pieces of a cut + removed − piece that was cut, as a rational number, of the last cut for
+  /// which it is not 0; "0" unless there is a bug.
   std::string exact_defect = "0";
   std::vector<CutPiece> pieces;
   /// Length of lines that separate nothing: they end inside the ice, or lead from hole to hole [m].
   double dangling_length = 0;
-  /// Reason why the floe was refused, or of its cuts the last one that failed; such a floe still has pieces.
+  /// Reason why its outline was refused, and it has no pieces; or why the last cut that failed did, and it has pieces.
   std::optional<Rejection> rejected;
   std::optional<RepairNote> repair;               ///< only if its outline was repaired
   std::shared_ptr<const std::string> properties;  ///< properties that the pieces inherit, as in FloeEntry

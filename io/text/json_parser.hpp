@@ -108,8 +108,8 @@ std::string_view name_of(JsonValue::Kind kind);
 const JsonValue& json_member(const JsonValue& value, std::string_view key);
 const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind);
 
-/// Deepest nesting of lists and objects that is read. It bounds the stack of the recursive reader; no file of Polynya
-/// needs a quarter of it.
+/// Deepest nesting of lists and objects that is read. It bounds the stack of the recursive reader. A smaller value
+/// would refuse foreign files with deep properties, a much larger one could let a wrong file crash the program.
 inline constexpr std::size_t kDeepestNesting = 64;
 /// Longest text that is read [bytes]. It bounds the memory that a wrong file can take, and keeps positions within 32
 /// bits. No reader of JSON can accept longer texts, whatever its own limit is.
