@@ -12,63 +12,69 @@
 
 namespace polynya::io {
 
-// Polynya reads only GeoJSON, NDJSON and WKT. GDAL's programs (Debian's gdal-bin) read all other formats, select
-// features, know coordinate systems and project coordinates. Each function of this header runs one of these programs as
-// a child process. It fails with a message that names the package if the program is missing.
+// Polynya itself reads only GeoJSON, NDJSON and WKT. GDAL's programs (Debian's gdal-bin) read all other formats, select
+// features, know coordinate systems and project coordinates. Functions of this header that return a Result run these
+// programs as child processes. They fail with a message that names the package if a program is missing.
 
-/// Longitude and latitude on WGS 84 in degrees, longitude first.
+/// Name by which GDAL knows the system of longitude and latitude on WGS 84 in degrees, longitude first.
 inline constexpr const char* kDegreesOnEarth = "OGC:CRS84";
 
-/// A coordinate reference system.
+/// Properties of a coordinate reference system. If none of the three flags is set, Polynya cannot use coordinates in
+/// it; an example is a geocentric system. Of a system with heights, they describe the horizontal part.
 struct Crs {
   std::string name;            ///< "WGS 84 / NSIDC Sea Ice Polar Stereographic North"
-  std::string code;            ///< "EPSG:3413"; may be empty
+  std::string code;            ///< "EPSG:3413"; empty if the definition has no code
   bool is_geographic = false;  ///< coordinates are longitude and latitude in degrees
-  bool is_projected = false;   ///< coordinates lie in a plane
+  bool is_projected = false;   ///< coordinates lie in a plane, in any unit of length
   bool is_metric = false;      ///< coordinates lie in a plane and are in metres
 };
 
-/// Returns the name of a system for messages: the name in WKT, or else the definition.
+/// Returns the name of a system for messages: the name in WKT, or else the definition, shortened to 100 bytes.
 std::string name_of_system(const std::string& definition);
 
 /// Looks a system up in PROJ's database. The definition is a code ("EPSG:3413", "urn:ogc:def:crs:OGC:1.3:CRS84"), a
-/// PROJ string or WKT. A definition that names a file or a web address is refused, because the text may come from
-/// somebody else's file.
+/// PROJ string or WKT. Fails if PROJ does not know it. A definition that names a file or a web address, or that GDAL
+/// would take for an option, is refused in the same way, because the text may come from somebody else's file.
 Result<Crs> find_crs(const std::string& definition);
 
+/// Returns true if both coordinates are finite numbers. transform() marks points without an image by NaN.
 inline bool is_finite(geometry::Point p) {
   return std::isfinite(p.x) && std::isfinite(p.y);
 }
 
-/// Transforms points to another coordinate system, in their order (gdaltransform). x is east or longitude [°], whatever
-/// order the authority of the system defines. A point that has no image, or is not finite, becomes NaN.
+/// Transforms points from one coordinate system to another (gdaltransform). Returns the image of each point, in the
+/// same order. x is east or longitude [°], whatever axis order the authority of the system defines. The image of a
+/// point is NaN if the target system cannot show it, or if the point is not finite. Fails if GDAL rejects a system.
 Result<std::vector<geometry::Point>> transform(const std::vector<geometry::Point>& points, const std::string& from,
                                                const std::string& to);
 
-/// Selects features of a file.
+/// The features of a file that a user selects.
 struct Selection {
   std::string layer = {};  ///< layer of a file that has several; empty: the only one with polygons
   std::string where = {};  ///< condition on the properties in the SQL of OGR: "POLY_TYPE = 'I'"; empty: all features
-  std::string layer_in_words = "--layer NAME";  ///< how a user names a layer, for messages
+  /// How a user names a layer, for the message that asks for one. Scenes have a key instead of this option.
+  std::string layer_in_words = "--layer NAME";
 };
 
-/// A file that GDAL has read.
+/// A file that GDAL has converted.
 struct ForeignFile {
-  std::string geojson;             ///< selected features in the coordinates of the file
+  std::string geojson;             ///< selected features as GeoJSON, in the coordinates of the file
   std::string system;              ///< coordinate system of the layer as WKT; empty: it has none
-  std::vector<std::string> notes;  ///< messages about what was selected
+  std::vector<std::string> notes;  ///< messages for the user about the selection and about what was left out
 };
 
-/// Reads a file in a format that GDAL knows (ogrinfo, ogr2ogr). Curves become lines, and third coordinates are left
-/// out. Returns nothing if the file is to be read as GeoJSON, NDJSON or WKT, because it begins as one of these, or
-/// because GDAL does not know its format either. Fails if the file has several layers and none is named (the message
-/// lists them), and if its text would be longer than `longest` [bytes].
+/// Reads a file in a format that GDAL knows (ogrinfo, ogr2ogr), also within a .zip archive. Curves become lines, and
+/// third coordinates are left out. Returns nothing, and applies no selection, if the caller must read the file as
+/// GeoJSON, NDJSON or WKT: the file begins as one of these, GDAL does not know its format either, or it is no regular
+/// file that can be opened. Fails if no layer has the name in the selection, if none is named and several layers have
+/// polygons or none has (the message lists the layers), and if the GeoJSON would be longer than `longest` [bytes].
 std::optional<Result<ForeignFile>> read_foreign_file(const std::filesystem::path& file, const Selection& selection,
                                                      std::size_t longest);
 
-/// Removes the polygons of features that do not satisfy a condition on their properties (Selection::where). Returns a
-/// message on how many features were selected. Entries that could not be read as a feature stay, so that they are
-/// reported.
+/// Applies a condition on properties (Selection::where) to a text that Polynya itself has read (ogr2ogr). Polygons of
+/// features that do not satisfy the condition are removed. Entries that could not be read as a feature stay, so that
+/// they are reported later. Returns a message that says how many features were selected. Fails for WKT, which has no
+/// properties, and if GDAL rejects the condition.
 Result<std::string> select_features(FloeText& floes, const std::string& where);
 
 }  // namespace polynya::io

@@ -12,46 +12,51 @@
 
 namespace polynya::io {
 
-/// Largest coordinate of a floe in the plane [m]. Farther floes are refused, because a larger coordinate usually means
-/// another unit or coordinate system, or a wrong number.
+/// Largest magnitude of a coordinate of a floe in the plane, and largest distance from the origin to which floes are
+/// projected [m]. Farther floes are refused, because a larger coordinate usually means another unit or coordinate
+/// system, or a wrong number. At this distance a plane about an origin is wrong by 0.4 % in length (frame_about).
 inline constexpr double kFarthestFloe = 1e6;
 
-/// Default of PlaneSettings::tolerance [m]. With it, an import followed by an export moves edges by at most a
-/// millimetre.
+/// Default of PlaneSettings::tolerance, and of the tolerance of exports [m]. With it, an import followed by an export
+/// moves edges by at most a millimetre. A larger value saves points of long edges, but moves edges more.
 inline constexpr double kEdgeTolerance = 0.0005;
 
-/// A floe as a file describes it.
+/// A floe of a file. bring_to_plane() replaces the file's coordinates by those of the plane.
 struct SourceFloe {
-  geometry::Polygon polygon;  ///< rings as drawn, in the file's coordinates
+  geometry::Polygon polygon;  ///< rings as drawn in the file: in either direction, closed or open
   FloeProperties properties;
   std::string refused = {};            ///< reason why it is refused; empty: it is not
   std::optional<std::size_t> feature;  ///< number of the feature in the file to which the polygon belongs
-  /// True if one of its edges lies on the meridian of longitude 180; set only if marks_180 asks for it.
+  /// True if one of its edges lies on the meridian of longitude 180, where files divide floes; such parts may be
+  /// joined again. Set only with PlaneSettings::marks_180.
   bool is_at_180 = false;
 };
 
-/// Statements of a file about its coordinate system.
+/// What a file says about its coordinate system.
 struct FilePlace {
-  std::string system;  ///< coordinate system that the file names, as GDAL knows it; may be empty
-  StatedPlace stated;  ///< place that a file of Polynya states
+  std::string system;  ///< coordinate system that the file names, as GDAL knows it; empty: it names none
+  StatedPlace stated;  ///< place on the Earth that the file states, if Polynya wrote it
 };
 
-/// Plane to which the floes of a file are projected.
+/// Plane to which the floes of a file are projected. At most one of `origin` and `target` is given. Without both,
+/// coordinates in metres keep their plane.
 struct PlaneSettings {
-  std::optional<simulation::GeographicOrigin> origin;  ///< plane about this place on the Earth
-  std::string target;                                  ///< plane of this projected system, "EPSG:3413"; may be empty
-  std::string source;  ///< system of the file's coordinates, if the file names none; may be empty
-  /// For a file in degrees without origin and target: use the middle of its floes as origin.
+  std::optional<simulation::GeographicOrigin> origin;  ///< use the plane about this place (frame_about)
+  std::string target;                                  ///< use the plane of this projected system, "EPSG:3413"
+  std::string source;  ///< system of the coordinates of a file that names none; a file that names another is refused
+  /// For a file in degrees without origin and target. True: the middle of its floes becomes the origin, with the x axis
+  /// to the east. False: the file is refused.
   bool chooses_origin = false;
-  bool are_metres = false;  ///< coordinates are known to be metres, not degrees
-  /// Coordinates of a file without a system that do not look like degrees stay as they are, even with an origin.
+  bool are_metres = false;  ///< true: coordinates without a system are metres, even if they look like degrees
+  /// For a file without a system, if an origin is given and the coordinates do not look like degrees. True: they are
+  /// metres of the plane about the origin, and are kept. False: the file is refused.
   bool keeps_metres = true;
-  bool marks_180 = false;   ///< mark floes with an edge on the meridian of longitude 180
-  bool is_shifted = false;  ///< move the middle of the box around all floes to (0, 0), in whole metres
+  bool marks_180 = false;   ///< set SourceFloe::is_at_180; it takes time if the file is not in degrees
+  bool is_shifted = false;  ///< move the middle of the box around all floes to (0, 0), by whole metres
   /// Largest distance between the exact image of an edge and the straight lines that replace it [m]. A smaller
   /// tolerance adds more points to edges. With 0 no points are added.
   double tolerance = kEdgeTolerance;
-  /// Returns the option with which a user gives an origin [°], for messages.
+  /// Returns the option or key with which a user gives an origin [°], for messages. It must be set.
   std::string (*origin_in_words)(double latitude, double longitude) = nullptr;
   std::string shift_in_words;   ///< option with which a user asks for a shift, for messages
   std::string source_in_words;  ///< option with which a user names the system of the file, for messages
@@ -59,35 +64,45 @@ struct PlaneSettings {
 
 /// How the coordinates were projected to the plane.
 struct PlaneReport {
-  std::string system;  ///< name of the file's system in PROJ; empty: the coordinates were metres of the plane
+  /// Name in PROJ of the system of the file's coordinates. If an origin was asked for and the file states a place of
+  /// its own, it is that place in words. Empty: the file names no system, so that its coordinates were taken as metres
+  /// of the plane, or it states a place and no origin was asked for.
+  std::string system;
   std::optional<simulation::GeographicOrigin> origin;  ///< origin of the plane, if it is about one
   bool is_origin_chosen = false;                       ///< true if the program chose the origin
-  std::string target;                                  ///< system of the plane, if it has one
-  geometry::Vector shift;                              ///< vector that was added to the coordinates [m]
+  std::string target;                                  ///< projected system of the plane; empty if it is of none
+  geometry::Vector shift;        ///< vector that was added to coordinates of that plane, also before the import [m]
   std::size_t added_points = 0;  ///< number of points that were added to edges whose images are not straight
 };
 
-/// Reason why the floes of a file have no place in the plane.
+/// Reason why the floes of a file cannot be brought to the plane.
 struct PlaneError {
   std::optional<std::size_t> floe;  ///< index of the first floe with the fault; none: the fault is one of the file
-  std::string words;
+  std::string words;                ///< message
 };
 
-/// Projects floes and their velocities to metres in a plane, with GDAL. Floes that are refused already are not changed.
-/// Further floes are refused if a coordinate is not finite, if a latitude is beyond ±90°, if a point has no image, or
-/// if a point is farther than kFarthestFloe from the origin, as in the other hemisphere. If all floes have one of these
-/// faults (for the last one: most floes), the whole file fails with it. The file also fails if it is in degrees without
-/// a system or an origin, if PROJ does not know its system, or if the plane is not in metres. Coordinates without a
-/// system that do not look like degrees (io/text/floe_text.hpp) are metres of the plane. A file that states its own
-/// place (StatedPlace) keeps it unless another plane is asked for; then its floes are moved there.
+/// Projects floes and their velocities to metres in a plane, with GDAL, and returns a report on it. Floes that are
+/// refused already are not projected. Further floes are refused, with the reason in SourceFloe::refused:
+/// - if a coordinate is not finite,
+/// - if a latitude is beyond ±90° or a longitude beyond ±540°,
+/// - if a point has no image in the plane,
+/// - if a point is farther than kFarthestFloe from the origin to which it is projected, for example in the other
+///   hemisphere,
+/// - if a coordinate in the plane, after the shift, is beyond ±kFarthestFloe.
+/// If all floes have one of these faults, or more than half of them the last one, the whole file fails with it. The
+/// file also fails if it is in degrees and neither an origin nor a target is given (unless one may be chosen), if PROJ
+/// does not know its system, or if the plane is not in metres. Coordinates without a system that do not look like
+/// degrees (CoordinateEvidence) are metres of the plane. A file that states its own place (StatedPlace) keeps it unless
+/// another plane is asked for; then its floes are moved there.
 tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, const FilePlace& place,
                                                      const PlaneSettings& settings);
 
-/// Returns true if two origins are the same place and heading, to within a hundredth of a millimetre.
+/// Returns true if two origins have the same latitude, longitude and heading, to 1e-12 rad, which is less than 0.01 mm
+/// on the Earth.
 bool are_one(const simulation::GeographicOrigin& a, const simulation::GeographicOrigin& b);
 
-/// Describes the plane of a report, "the plane about 78.3° N, 15° E, x along 90°, shifted by (10, 20) m". Returns an
-/// empty text if the plane has no place on the Earth.
+/// Describes the plane of a report for messages, "the plane about 78.3° N, 15° E, x along 90°, shifted by (10, 20) m".
+/// Returns an empty text if the plane has no place on the Earth.
 std::string place_in_words(const PlaneReport& plane);
 
 }  // namespace polynya::io

@@ -16,47 +16,56 @@
 
 namespace polynya::io {
 
-// The fields of events.ndjson. Each is defined once, in the order of the lines. Functions that write, read, show or
-// list events pass a Line, which is called for each field with its key, its place in the event and its meaning:
-// line(key, place, about). The members of the criterion are passed by line.object(about, list).
+// The fields of events.ndjson. Each is defined once, in the order of the lines. Four classes in event_records.cpp
+// write, read, show and list events. An object of one of them is the `line` of the templates below. The templates call
+// it for each field with its key, the member of the event that holds its value, and its meaning: line(key, value,
+// about). They call line.object(about, list) for the object "criterion"; `list` then passes the fields within. A line
+// that reads also has line.has(key). A new field is added in one place here, and described in docs/run-folder.md.
 
 using simulation::Is;
 
 /// Meaning and properties of a field.
 struct FieldMeaning {
   std::string_view unit;        ///< unit for people; empty for words, counts and ids
-  std::string_view meaning;     ///< description in docs/run-folder.md
+  std::string_view meaning;     ///< description in docs/run-folder.md; a test compares the page with it
   std::string_view label = {};  ///< name in the player and in `polynya inspect`; empty: they do not show the field
-  /// Smallest value that the reader accepts.
+  /// Smallest number that the reader accepts, in the unit of the field. It also refuses NaN.
   double least = -std::numeric_limits<double>::infinity();
-  /// Set for a field that may be missing, also in lines of older versions: whether this event has it.
+  /// Set for a field that a line may lack, for example a line of an older version. True: this event has the field, and
+  /// it is written. Without a value the field is always written, and a line without it is refused.
   std::optional<bool> is_there = {};
-  bool is_derived = false;  ///< true for a field that is computed from others and therefore not read
+  bool is_derived = false;  ///< true for a field that is computed from others, so that the reader skips it
 };
+/// Marks a field as one that a line may lack. It is written only if `is_there`.
 constexpr FieldMeaning optional(bool is_there, FieldMeaning about) {
   about.is_there = is_there;
   return about;
 }
+/// Marks a field as computed from others.
 constexpr FieldMeaning derived(FieldMeaning about) {
   about.is_derived = true;
   return about;
 }
 
-/// A ship or structure, which is recorded by its name.
+/// Value of a field for a ship, structure or wall, which is recorded by its name.
 template <class Index>
 struct ShipName {
-  Index& index;
-  bool may_be_none = false;
+  Index& index;              ///< number of the hull in the scene; −1 for none, which is recorded as an empty name
+  bool may_be_none = false;  ///< true: the reader accepts an empty name
 };
 template <class Index>  // Clang 14, which compiles the fuzz tests, does not deduce these for aggregates.
 ShipName(Index&)->ShipName<Index>;
 template <class Index>
 ShipName(Index&, bool) -> ShipName<Index>;
 
-/// The parent of the event's floe. The event does not store it, so append_event() receives it.
+/// Value of the field for the parent of the event's floe. The event does not store the parent, so append_event()
+/// receives it.
 struct Parent {};
 
+/// Meaning of the field "kind" of every criterion. It tells which condition of the criterion was met.
 inline constexpr FieldMeaning kRule = derived({"", "the rule in words"});
+
+// criterion() passes the fields of a criterion. The meaning of its last parameter depends on the criterion.
 
 template <class Line>
 void criterion(Line& line, Is<simulation::TiltCriterion> auto& c, bool) {
@@ -80,6 +89,7 @@ void criterion(Line& line, Is<simulation::TiltCriterion> auto& c, bool) {
             "covered", 0}));
 }
 
+/// `comes_up`: the piece surfaced. Otherwise it stays under the ice.
 template <class Line>
 void criterion(Line& line, Is<simulation::ResurfaceCriterion> auto& c, bool comes_up) {
   line("kind",
@@ -108,7 +118,8 @@ void criterion(Line& line, Is<simulation::GrindCriterion> auto& c, bool) {
   line("least_area_m2", c.least_area, {"m²", "area below which an overlap is kept", {}, 0});
 }
 
-/// The rule by which ice bends or splits, and both sides of all rules that were compared.
+/// The rule by which ice bends or splits, and the loads and capacities of all rules that were compared. `is_split`: the
+/// ice split, or a split was refused. Otherwise it is a bend, for which the loads of the crack have no label.
 template <class Line>
 void criterion(Line& line, Is<fracture::FailureCriteria> auto& c, bool is_split) {
   const simulation::DecidingLoad by = simulation::deciding_load(c, is_split);
@@ -152,6 +163,8 @@ void criterion(Line& line, Is<fracture::FailureCriteria> auto& c, bool is_split)
                                        "stress of the section", 0}));
 }
 
+/// Passes the criterion of an event of a kind. A rejected cut is a bend if it has a cusp, and else a split or a ground
+/// overlap; a line of a ground overlap is recognised by the field least_area_m2.
 template <class Line, class Kind>
 void criterion_of(Line& line, Kind& e) {
   using namespace simulation;
@@ -164,7 +177,9 @@ void criterion_of(Line& line, Kind& e) {
   }
 }
 
-/// Fields of events of the ice. Members that only some kinds have are written only for these.
+// kind_fields() passes the fields of one kind of event. `event` is the event, and `e` its alternative in Event::what.
+
+/// Fields of events of the ice. Members that only some kinds have are fields of these kinds only.
 template <class Line, class Kind>
 requires std::derived_from<Kind, simulation::IceEvent>
 void kind_fields(Line& line, auto& event, Kind& e) {
@@ -229,38 +244,49 @@ void fields(Line& line, Is<simulation::Event> auto& event) {
   std::visit([&](auto& kind) { kind_fields(line, event, kind); }, event.what);
 }
 
-/// Appends a line of events.ndjson. `parent` is the parent of the event's floe.
+/// Appends a line of events.ndjson with its line break. `parent` is the parent of the event's floe; kNoFloe, also for
+/// events of hulls, is written as null.
 void append_event(std::string& text, const simulation::Event& event, const simulation::Scene& scene,
                   simulation::FloeId parent = simulation::kNoFloe);
 
-/// Writes the same object with only the fields that the player shows.
+/// Writes the event as an object like that of events.ndjson, but only with the fields that have labels, for the player.
+/// Areas of 0 are left out.
 void write_shown_event(JsonWriter& json, const simulation::Event& event, const simulation::Scene& scene);
 
-/// Returns the rule and the fields that have labels, in words.
+/// Describes an event for `polynya inspect`: the rule, then "label value unit" of the fields that have labels,
+/// separated by "; ". Numbers that are 0 are left out, and so are the time, the kind, the place, the ids and the
+/// causing ship.
 std::string words_of(const simulation::Event& event, const simulation::Scene& scene);
 
-/// Reads a line of events.ndjson. Throws ReadError if it is not valid.
+/// Reads a line of events.ndjson. Throws ReadError with the key if a field is missing, has a wrong type or a value
+/// below the smallest one, or names a ship that the scene does not have, and if the kind of the event is unknown.
 simulation::Event event_of(const JsonValue& line, const simulation::Scene& scene);
 
-/// A field in a list of fields.
+/// A field of events.ndjson, for the documentation and the player.
 struct EventField {
   std::string_view key;
   FieldMeaning meaning;
-  bool is_of_criterion = false;
-  std::vector<std::string_view> kinds;  ///< kinds of events that have it
+  bool is_of_criterion = false;         ///< true: the field is a member of the object "criterion"
+  std::vector<std::string_view> kinds;  ///< names of the kinds of events that have it
 };
-/// Returns the fields of all kinds of events in the order of the lines.
+/// Returns the fields of all kinds of events in the order of the lines. A key that has different meanings in different
+/// kinds is listed once for each meaning.
 std::vector<EventField> event_fields();
 
-/// Largest number of refused cuts of a run that are written as files; events.ndjson has all of them.
+/// Largest number of refused cuts of a run that are written as files. It limits the size of the folder if a run has
+/// many; events.ndjson has all of them, without the shapes.
 inline constexpr std::int64_t kMostRejectedCuts = 100;
 
-/// Writes a cut that geometry refused into a run folder, in the format that `polynya cut` reads (docs/cut.md):
+/// Writes a cut that geometry refused at a time [s] into a run folder, in the format that `polynya cut` reads
+/// (docs/cut.md):
 ///   polynya cut rejected-cuts/000001.geojson --ops rejected-cuts/000001-ops.json
-/// The function returns after the disk has stored the files, so that they survive a failure of the machine.
+/// The function returns after the disk has stored the files, so that they survive a failure of the machine. It writes
+/// nothing for cuts beyond the first kMostRejectedCuts. It fails if the folder rejected-cuts is a link or cannot be
+/// written to.
 Result<> write_rejected_cut(const std::filesystem::path& run_folder, double time, const simulation::RejectedCut& cut);
 
-/// Removes the files that write_rejected_cut() wrote, and their folder if nothing else is in it.
+/// Removes the files that write_rejected_cut() wrote, and their folder if nothing else is in it. It fails if the folder
+/// is a link or a file cannot be removed.
 Result<> remove_rejected_cuts(const std::filesystem::path& run_folder);
 
 }  // namespace polynya::io

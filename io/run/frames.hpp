@@ -13,39 +13,47 @@
 
 namespace polynya::io {
 
-/// frames.bin: positions of all bodies over time. Little-endian; numbers are aligned to their size
-/// (docs/run-folder.md).
+/// frames.bin contains the positions of all bodies over time (docs/run-folder.md). It is little-endian, and numbers are
+/// aligned to their size. "Ships" are all hulls of the scene: ships, structures and walls, in this order.
 ///
 ///   file   = "PLYNYFRM" u32:version=1 u32:0 frame*
 ///   frame  = "FRAM" u32:ships u32:floes u32:0 f64:t_s ship{ships} floe{floes}
 ///   ship   = f64:x_m f64:y_m f64:heading_rad f64:vx f64:vy f64:yaw_rate
 ///   floe   = i64:floe_id f64:x_m f64:y_m f64:angle_rad f64:vx f64:vy f64:angular_velocity
 ///
-/// x, y of a floe are its centre of mass. A frame contains a floe only if its last recorded motion, extrapolated at
-/// constant velocity, deviates from its true motion by more than one of the tolerances below.
+/// x, y of a floe are its centre of mass, and those of a hull the origin of its frame. A frame contains a floe if no
+/// frame before contains it, or if its last recorded motion, extrapolated at constant velocity, deviates from its true
+/// motion by more than one of the tolerances below.
 
-// Largest errors of the recorded motion of a floe. Smaller values make frames.bin longer.
-inline constexpr double kFramePositionTolerance = 1e-3;  ///< [m]
+// Largest errors of the recorded motion of a floe at a frame. Larger values make frames.bin shorter, because floes that
+// hardly accelerate need records less often. All places of floes that are read from a run have these errors: in the
+// player, in exports and in scenes that continue a run.
+inline constexpr double kFramePositionTolerance = 1e-3;  ///< for x and for y [m]
 inline constexpr double kFrameAngleTolerance = 1e-5;     ///< [rad]
-inline constexpr double kFrameSpeedTolerance = 1e-3;     ///< [m/s]
-inline constexpr double kFrameSpinTolerance = 1e-5;      ///< [rad/s]
+inline constexpr double kFrameSpeedTolerance = 1e-3;     ///< for each component of the velocity [m/s]
+inline constexpr double kFrameSpinTolerance = 1e-5;      ///< for the angular velocity [rad/s]
 
-/// Motion of a body at one instant. Angles count full turns.
+/// Motion of a body at one instant, in the world frame. The bytes of this struct are those of the file.
 struct Motion {
-  geometry::Point position;     ///< of the centre of mass in the world [m]
-  double angle = 0;             ///< [rad]
-  geometry::Vector velocity;    ///< over ground [m/s]
-  double angular_velocity = 0;  ///< [rad/s]
+  /// Centre of mass of a floe; origin of the frame of a hull, which for a ship is its centre of gravity [m].
+  geometry::Point position;
+  /// Rotation of the body frame of a floe since the start, or heading of a hull, counter-clockwise [rad]. It counts
+  /// full turns, so that it can be interpolated.
+  double angle = 0;
+  geometry::Vector velocity;    ///< velocity of that point over ground [m/s]
+  double angular_velocity = 0;  ///< counter-clockwise [rad/s]
 };
 
+/// Writes or reads the members, in the order of the file.
 template <class Archive>
 void fields(Archive& archive, simulation::Is<Motion> auto& m) {
   archive(m.position, m.angle, m.velocity, m.angular_velocity);
 }
 
-/// Returns the motion after a time [s] at constant velocity.
+/// Returns the motion after a time [s] at constant velocity and angular velocity; a negative time goes back.
 Motion carried_on(const Motion& motion, double duration);
 
+/// A floe in a frame. The bytes of this struct are those of the file.
 struct FloeMotion {
   simulation::FloeId floe = 0;
   Motion motion;
@@ -57,21 +65,25 @@ struct RecordedMotion {
   Motion motion;
 };
 
-/// Returns the bytes of a frame with exactly these ships and floes.
+/// Returns the bytes of a frame at a time [s] with exactly these ships and floes, without comparing any tolerance.
 std::string frame_bytes(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes);
 
-/// Encodes frames. It stores the last record of each floe to decide which floes the next frame needs.
+/// Encodes the frames of a run. It stores the last record of each floe to decide which floes the next frame needs.
 class FrameEncoder {
  public:
   FrameEncoder() = default;
-  /// Continues an encoder with these last records.
+  /// Continues the encoder of a run that is resumed: `recorded` is recorded() at the checkpoint.
   explicit FrameEncoder(std::vector<RecordedMotion> recorded) : recorded_(std::move(recorded)) {}
 
+  /// Returns the bytes with which the file begins, before the first frame.
   static std::string header();
-  /// Encode one frame: begin(), then add() for each living floe, then end(). Only floes that need a record are written.
+  /// Begins a frame at a time [s]. A frame is encoded by begin(), then add() for each living floe, then end().
   void begin(double time, std::span<const Motion> ships);
+  /// Adds a floe to the frame if the floe needs a record.
   void add(const FloeMotion& floe);
+  /// Returns the bytes of the frame.
   std::string end();
+  /// Returns the last record of each floe by its id.
   const std::vector<RecordedMotion>& recorded() const { return recorded_; }
 
  private:
@@ -88,8 +100,9 @@ struct Frame {
   std::vector<FloeMotion> floes;  ///< only those with a record in this frame
 };
 
-/// Reads frames. A last frame that is cut short is ignored, or an error if `is_whole` (the run finished). The error
-/// message has the number of the frame and the byte at which it begins.
+/// Reads the bytes of a whole file. A last frame that is cut short is ignored, or is an error if `is_whole`, as in the
+/// file of a run that finished. Fails if the file has another format or version, or if a frame is damaged or has a
+/// number that is not finite. The message then has the number of the frame, from 1, and the byte at which it begins.
 Result<std::vector<Frame>> decode_frames(std::string_view bytes, bool is_whole = false);
 
 }  // namespace polynya::io

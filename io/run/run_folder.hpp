@@ -14,12 +14,14 @@
 
 namespace polynya::io {
 
-/// Version of the format of a run folder, in its summary.json. 6: current. 5: peaks in contacts.csv. 4: ice under
-/// hulls. 3: crushed.csv and ground overlaps. 2: floes.ndjson refers to vertices of parents. Folders without a number
-/// are version 1.
+/// Version of the format of a run folder, in its summary.json. Readers accept folders up to their own version and
+/// refuse later ones. Each version added: 2 references to vertices of parents in floes.ndjson, 3 crushed.csv and ground
+/// overlaps, 4 ice under hulls, 5 peaks in contacts.csv, 6 unpaid_m2 in crushed.csv. Folders without a number are
+/// version 1.
 inline constexpr int kRunFolderVersion = 6;
 
-/// The files of a run (docs/run-folder.md).
+/// Names of the files and folders in a run folder (docs/run-folder.md). Readers of all versions find them by these
+/// names.
 namespace run_file {
 inline constexpr std::string_view kLock = ".polynya";  ///< locked by RunLock
 inline constexpr std::string_view kScene = "scene.json";
@@ -46,16 +48,19 @@ inline constexpr std::string_view kFigureSizes = "figure-sizes.svg";
 inline constexpr std::string_view kFigureEnergy = "figure-energy.svg";
 inline constexpr std::array kFigures{kFigureFloes, kFigureLoads, kFigureMotion, kFigureSizes, kFigureEnergy};
 inline constexpr std::string_view kLoads = "loads";  // a folder, written by `polynya loads`
+/// State before the tick that failed, or that broke the balance of ice, energy or momentum.
 inline constexpr std::string_view kFailure = "failure.bin";
 inline constexpr std::string_view kChecksums = "checksums.txt";     ///< only in a finished run
-inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  // a folder
-/// The files that grow, in the order in which they are written to disk, so that a name is never on the disk before the
-/// body that it names. Runs without panels do not have the last one.
+inline constexpr std::string_view kRejectedCuts = "rejected-cuts";  ///< a folder, written by write_rejected_cut()
+/// The files to which a run appends while it runs. They are written to disk in this order, so that a floe is on the
+/// disk before any record that names it. Runs without panels do not have the last one.
 inline constexpr std::array kGrowing{kFloes, kEvents, kFrames, kContacts, kCrushed, kStates, kForces, kPanels};
 // Written by `polynya management`.
 inline constexpr std::string_view kManagement = "management.csv";
 inline constexpr std::string_view kManagementSizes = "management-sizes.csv";
 inline constexpr std::string_view kManagementPng = "management.png";
+/// Files made from the end of a run, by the run or by later commands. They are removed if the run gets another end, and
+/// so are the figures, failure.bin and the folder of `polynya loads`.
 inline constexpr std::array kMadeAtEnd{kFinalGeojson, kFinalSvg,   kFinalPng,        kView,         kChannel,
                                        kChannelCsv,   kManagement, kManagementSizes, kManagementPng};
 }  // namespace run_file
@@ -63,26 +68,30 @@ inline constexpr std::array kMadeAtEnd{kFinalGeojson, kFinalSvg,   kFinalPng,   
 /// Returns the files that grow in a run of the scene.
 std::span<const std::string_view> growing_files(const simulation::Scene& scene);
 
-/// Longest file that programs which read runs accept [bytes]. A run that writes a longer one warns.
+/// Longest file that the reader of runs accepts [bytes]. It limits the memory that a wrong file can take, because each
+/// file is read as a whole. A run that writes a longer file ends with a warning.
 inline constexpr std::uint64_t kLongestRunFile = std::uint64_t{4} << 30;
 
-/// A run that starts with more floes than this writes no final.geojson unless asked to, because it is long, and
-/// `polynya export --geojson` can make it from the other files.
+/// Number of floes at the start above which a run writes no final.geojson unless it is asked to, because the file is
+/// long (some 50 MB or more), and `polynya export --geojson` can make it from the other files.
 inline constexpr std::size_t kMostFloesInFinal = 100'000;
 
-/// Estimated sizes of the files that contain all floes, from the floes at the start [bytes].
+/// Estimated sizes of the files that contain all floes, from the floes at the start [bytes]. Floes that are born later
+/// are not included.
 struct FolderSize {
-  double floes = 0;          ///< floes.ndjson
-  double final_geojson = 0;  ///< if it is written
+  double floes = 0;          ///< floes.ndjson at the start
+  double final_geojson = 0;  ///< final.geojson, if it is written
 };
 FolderSize estimate_folder_size(const simulation::Scene& scene);
 
-/// Prevents other processes from writing to a run folder while this object exists. It locks the file `.polynya` of the
-/// folder; the lock ends with the process, however that ends. The file stays. It marks the folder as that of a run, and
-/// a file that is never replaced can be locked by only one process.
+/// Prevents other processes of Polynya from writing to a run folder while this object exists. It locks the file
+/// `.polynya` of the folder. The lock ends with the process, however that ends, but the file stays: it marks the folder
+/// as that of a run, and a file that is never replaced can be locked by only one process. On file systems without locks
+/// nothing is prevented.
 class RunLock {
  public:
-  /// Takes the lock, and creates the file if there is none. The error names what prevents it.
+  /// Takes the lock, and creates the file if there is none. Fails if another process has it, or if the file is a link,
+  /// not a regular file or cannot be opened.
   static Result<RunLock> take(const std::filesystem::path& folder);
 
   const std::filesystem::path& folder() const { return folder_; }
@@ -97,19 +106,21 @@ class RunLock {
   std::filesystem::path folder_;
 };
 
-/// Takes a folder for a new run and locks it. It is created if there is none; if several processes want one folder, one
-/// gets it. A folder that is not empty is refused, except for the remains of a run that was killed before it had its
-/// scene. With `overwrite`, the files that Polynya writes are removed from a run folder, finished, unfinished or partly
-/// removed, and nothing else is. Any other folder is refused even then and stays unchanged. The error names the folder,
-/// its contents and what to do.
+/// Takes a folder for a new run and locks it. The folder and missing folders above it are created. If several processes
+/// want one folder, one gets it. A folder that is not empty is refused, unless it has only the remains of a run that
+/// was killed before it had its scene. With `overwrite`, a folder with a run, finished, unfinished or partly removed,
+/// is accepted too. The files that Polynya writes are then removed from it, and nothing else is. Any other folder is
+/// refused even then and stays unchanged. The error names the folder, its contents and what to do.
 Result<RunLock> claim_run_folder(const std::filesystem::path& folder, bool overwrite);
 
-/// Changes the end of a run to the end of the scene. The scene equals that of scene.json except for `time.until_s`. The
-/// summary becomes that of an unfinished run, files made at and after the old end are removed, and scene.json gets the
-/// new end. If the program is killed in between, the folder is that of a run that can be resumed.
+/// Changes the end of a run to the end of `scene`, which equals the scene of scene.json except for `time.until_s`. The
+/// caller holds the lock of the folder. The checksums are removed, the summary becomes that of an unfinished run, files
+/// made at and after the old end are removed, and at last scene.json gets the new end. If the program is killed in
+/// between, the folder is that of a run that can be resumed. Of an unfinished run that already has this end, only the
+/// checksums are removed. Fails if a file cannot be written or removed.
 Result<> set_end(const std::filesystem::path& folder, const LoadedScene& scene);
 
-/// Returns true if Polynya has marked the folder as that of a run.
+/// Returns true if Polynya has marked the folder as that of a run, by the file `.polynya`.
 bool is_marked_run_folder(const std::filesystem::path& folder);
 
 }  // namespace polynya::io

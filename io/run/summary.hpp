@@ -20,70 +20,77 @@ namespace polynya::io {
 
 class RunWriter;
 
-/// Largest magnitude of a value, and its time.
+/// The value of largest magnitude among several, with its sign, and its time.
 struct Peak {
   double value = 0;
   double time = 0;  ///< [s]
+  /// Takes a value at a time [s] into account. Of equal magnitudes the first one stays.
   void include(double candidate, double at) {
     if (std::abs(candidate) > std::abs(value)) *this = {candidate, at};
   }
 };
 
-/// Largest loads on one ship over a run, in the ship's frame.
+/// Largest loads on one hull (ship, structure or wall) over a run, in the hull's frame.
 struct ShipPeaks {
-  std::string ship;
-  std::vector<Peak> of_column;  ///< of each column of peak_columns()
-  Peak of_contact;  ///< largest force of one contact with ice along its normal [N], as a row of contacts.csv has it
+  std::string ship;             ///< name of the hull
+  std::vector<Peak> of_column;  ///< of each column of forces.csv that peak_columns() names, in its order and units
+  Peak of_contact;  ///< largest force of one contact with ice along its normal [N], of the peaks in contacts.csv
 };
 
-/// Number of fractures: bends and splits. Ground overlaps and refused cuts are not counted.
+/// Returns the number of fractures that progress and summaries show: bends and splits. Ground overlaps and refused cuts
+/// are not counted.
 inline std::int64_t fractures_of(const simulation::Counts& counts) {
   return counts.bends + counts.splits;
 }
 
-/// Contents of summary.json.
+/// Contents of summary.json, except for those that follow from the scene.
 struct RunSummary {
   bool finished = false;
   std::string stopped_by;  ///< reason why the run stopped early; empty while it runs and when it has finished
-  std::int64_t steps = 0;
-  double sim_time = 0;   ///< [s]
-  double wall_time = 0;  ///< [s]
+  std::int64_t steps = 0;  ///< number of whole ticks
+  double sim_time = 0;     ///< simulated time [s]
+  double wall_time = 0;    ///< time by the clock of the whole run, also before it was resumed [s]
   simulation::IceLedger areas;
   simulation::IceLedger masses;
   simulation::Audit audit;
   simulation::Counts counts;
-  std::vector<ShipPeaks> peaks;
-  simulation::PeakCounts load_peaks;
-  std::vector<std::string> warnings;
+  std::vector<ShipPeaks> peaks;       ///< by number of the hull in the scene
+  simulation::PeakCounts load_peaks;  ///< how many peaks contacts.csv has, and how many it leaves out
+  std::vector<std::string> warnings;  ///< sentences for the user
 
+  /// Returns the simulated seconds per second of wall time; 0 if the wall time is unknown.
   double real_time_factor() const { return wall_time > 0 ? sim_time / wall_time : 0; }
-  /// Returns true if the balances of ice, energy and momentum close.
+  /// Returns true if the balances of ice, energy and momentum close. If not, the run must not be trusted.
   bool accounts_close() const { return audit.is_closed() && areas.is_closed() && masses.is_closed(); }
 };
 
-/// Returns the shortest time step [s] that a run with this tick [s] took.
+/// Returns the shortest time step [s] that a run with this tick [s] took: the tick divided by the largest number of
+/// parts of a tick.
 double shortest_step(const simulation::Counts& counts, double tick);
 
-/// Returns the summary of a run that has ended. `stopped_by` is the reason if it was stopped, or empty if it finished.
-/// `wall_time` [s] is that of the whole run.
+/// Returns the summary of a run that has ended, with its warnings. `stopped_by` is the reason if it was stopped, or
+/// empty if it finished. `wall_time` [s] is that of the whole run.
 RunSummary summarise(const simulation::Simulation& simulation, const RunWriter& writer, const std::string& stopped_by,
                      double wall_time);
 
+/// Returns the text of summary.json.
 std::string to_json_text(const RunSummary& summary, const LoadedScene& scene);
 
-/// Finds the first member of a summary.json whose kind differs from what this program writes, for example a text
-/// instead of a number. Members may be missing, because older versions wrote fewer.
+/// Returns the first member of a summary.json whose kind differs from the kind that this program writes, for example a
+/// text instead of a number; nothing if there is none. Code that reads the summary needs no further checks of kinds.
+/// Members may be missing, because older versions wrote fewer, and unknown members are ignored.
 std::optional<JsonFault> fault_of_summary(const JsonValue& summary, const LoadedScene& scene);
 
 /// End of a finished run.
 struct FinishedRun {
   double time = 0;       ///< simulated time [s]
-  double wall_time = 0;  ///< wall time that the run took [s]
+  double wall_time = 0;  ///< time by the clock that the whole run took [s]
 };
-/// Reads the end from summary.json of a folder; returns nothing if the run has not finished.
+/// Reads the end of a run from summary.json of its folder. Returns nothing if the run has not finished, or if the file
+/// cannot be read.
 std::optional<FinishedRun> finished_run(const std::filesystem::path& folder);
 
-/// Returns the version of Polynya, which every summary.json contains.
+/// Returns the version of this program, "1.2.3", which every summary.json and checkpoint contains.
 std::string_view version();
 
 }  // namespace polynya::io

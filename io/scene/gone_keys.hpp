@@ -8,19 +8,21 @@
 
 namespace polynya::io {
 
-/// A scene key of an earlier version that no longer exists.
+/// A scene key of an earlier version that no longer exists. The scene.json of older runs has such keys. A scene that
+/// has one with a value that changes nothing is still accepted, with a hint. With another value it is refused.
 struct GoneKey {
-  std::string_view path;  ///< path of the key, without the numbers of list items
-  /// True for values with which the scene has the same meaning if the key is removed.
+  std::string_view path;  ///< path of the key without the numbers of list items: "ships.calibration"
+  /// Returns true for values with which the scene has the same meaning if the key is removed. It must be set.
   bool (*changes_nothing)(const JsonValue&) = {};
-  std::string_view allowed = "";  ///< these values in words
-  std::string_view instead = "";  ///< reason why the key was removed, and what to use instead
+  std::string_view allowed = "";  ///< these values in words, for the message about another value
+  std::string_view instead = "";  ///< reason why the key was removed, and what to use instead, for the hint
 };
 
-/// Returns the key of an earlier version that has this path, as "ships[1].calibration", or null if there is none.
+/// Returns the key of an earlier version that has this path, for example "ships[1].calibration", or null if there is
+/// none.
 const GoneKey* gone_key(std::string_view path);
 
-/// Adds a hint for each key of an earlier version that a scene still has with a value that changes nothing.
+/// Adds a hint for each key of an earlier version that a valid scene still has. `given` is the JSON of the scene.
 void add_hints_at_gone_keys(const JsonValue& given, ProblemCollector& hints);
 
 }  // namespace polynya::io

@@ -8,13 +8,15 @@
 
 namespace polynya::io {
 
-/// CRC-32 (the variant of zlib and of the program `crc32`) and number of the bytes added so far. A CRC-32 detects every
-/// error that is confined to 32 neighbouring bits. It misses one in 4·10⁹ of all other errors.
+/// CRC-32 (the variant of zlib and of the program `crc32`) and number of the bytes added so far. It shows whether the
+/// disk has changed a file of a run. A CRC-32 detects every error that is confined to 32 neighbouring bits. It misses
+/// one in 4·10⁹ of all other errors. It gives no protection against somebody who changes a file on purpose.
 class Checksum {
  public:
   Checksum() = default;
   explicit Checksum(std::string_view bytes) { add(bytes); }
 
+  /// Continues the checksum by these bytes. Any division of a text into parts gives the same checksum.
   void add(std::string_view bytes) {
     crc_.process_bytes(bytes.data(), bytes.size());
     size_ += bytes.size();

@@ -18,14 +18,18 @@ namespace polynya::io {
 
 /// Selection of the pieces that a cut by a disc or a polygon keeps. A cut by a crack or a line keeps all pieces.
 enum class Keep { kOutside, kInside, kBoth };
+/// Returns the word for it in lists of cuts: "outside", "inside" or "both".
 std::string_view name_of(Keep keep);
+
+// The tools of cuts. Points are in the coordinates of the floes [m].
 
 /// A circle. The floe is cut by a regular polygon that is inscribed in it.
 struct DiscTool {
   geometry::Point centre;
-  double radius = 0;   ///< [m]
-  double sagitta = 0;  ///< largest distance between the circle and the sides of the polygon [m]
-  geometry::Polygon polygon;
+  double radius = 0;  ///< [m]
+  /// Largest distance between the circle and the sides of the polygon [m]. A smaller one gives more vertices.
+  double sagitta = 0;
+  geometry::Polygon polygon;  ///< the polygon that cuts
 };
 /// Several polygons that cut together, prepared for geometry::cut_by_polygons.
 struct PolygonTool {
@@ -34,7 +38,7 @@ struct PolygonTool {
 /// A straight crack through a point, across the whole floe.
 struct CrackTool {
   geometry::Point point;
-  double angle_deg = 0;  ///< from the x axis, counter-clockwise
+  double angle_deg = 0;  ///< direction from the x axis, counter-clockwise [°]
 };
 /// A path from its first point to its last one, along which the floe is cut.
 struct LineTool {
@@ -47,19 +51,20 @@ struct LineTool {
 struct CutOp {
   std::variant<DiscTool, PolygonTool, CrackTool, LineTool> tool;
   Keep keep = Keep::kOutside;
-  /// A piece that this cut leaves whole is an error, and its floe is refused; false: it stays whole
+  /// True: if this cut leaves a piece of a floe whole, the floe is reported as rejected, and the piece stays. False:
+  /// that is no error.
   bool must_cut = false;
 };
 
-/// Values of cuts that do not state their own.
+/// Values for cuts that do not state their own.
 struct CutDefaults {
   Keep keep = Keep::kOutside;
   double sagitta = 0;  ///< largest distance between a circle and its polygon [m]; 0: default_sagitta() of the radius
   std::optional<double> snap = {};  ///< distance within which ends of lines are extended [m]; none: default_snap()
 };
 
-/// Reason why there is no tool. The kind distinguishes a list of cuts with a mistake from a polygon with an invalid
-/// outline.
+/// Reason why there is no tool. The kind distinguishes a mistake in the list of cuts from a polygon with an invalid
+/// outline; `polynya cut` has another exit code for each.
 struct ToolError {
   enum class Kind { kMalformed, kInvalidPolygon };
   Kind kind = Kind::kMalformed;
@@ -68,23 +73,28 @@ struct ToolError {
 template <class Value>
 using ToolOutcome = tl::expected<Value, ToolError>;
 
-/// Default distance between a circle and the polygon that cuts [m]: 0.02 m, or 1/250 of the radius of discs smaller
-/// than 5 m, which gives 36 vertices.
+/// Returns the default distance between a circle and the polygon that cuts [m], for a radius [m]: 0.02 m, or 1/250 of
+/// the radius of discs smaller than 5 m, which gives 36 vertices. Larger discs have more.
 double default_sagitta(double radius);
 
-/// Reads `least` to `most` finite numbers in JSON notation with commas between them.
+/// Reads `least` to `most` finite numbers in JSON notation with commas between them, as options have them. Fails if the
+/// text is no such list, or has another number of items.
 Result<std::vector<double>> read_numbers(std::string_view text, std::size_t least, std::size_t most);
 
-/// Returns the cut of a kind from its numbers: "disc" from x, y, radius [m]; "crack" from x, y [m] and angle [°];
-/// "line" from x, y of one point and x, y of the other [m]. `sagitta` [m] is that of discs.
+/// Returns the cut of a kind from its numbers, as many as the kind needs: "disc" from x, y, radius [m]; "crack" from x,
+/// y [m] and angle [°]; "line" from x, y of one point and x, y of the other [m]. `sagitta` [m] is that of discs; 0:
+/// default_sagitta(). Fails if the radius is not above 0, if the circle is too small for the precision of its
+/// coordinates, or if the ends of the line are one point.
 ToolOutcome<CutOp> op_of_numbers(std::string_view kind, const std::vector<double>& numbers, double sagitta);
+/// Returns the cut along a path without points that repeat the point before. Fails if fewer than two points remain.
 ToolOutcome<LineTool> line_tool(std::vector<geometry::Point> path);
-/// Reads the polygons of a text in any of the formats of floe_text.hpp.
+/// Reads the polygons of a text in any of the formats of floe_text.hpp. Fails if there is none, or if one is not valid.
 ToolOutcome<PolygonTool> polygon_tool(std::string text);
 
 /// Reads a JSON list of cuts (docs/cut.md):
 ///   [{"disc": [x, y, r], "sagitta_m": s}, {"crack": [x, y, angle_deg]}, {"line": [x0, y0, x1, y1], "snap_m": s},
 ///    {"polygon": GeoJSON}], each with an optional "keep" and "must_cut".
+/// The error begins with the number of the cut in the list, from 0: "[2]: disc: the radius is not > 0".
 ToolOutcome<std::vector<CutOp>> read_cut_ops(const std::string& text, const CutDefaults& defaults);
 
 /// Reason why a polygon was refused, or why a floe could not be cut.
@@ -96,7 +106,7 @@ struct Rejection {
 
 /// Record of the repair of an outline that was not valid.
 struct RepairNote {
-  std::string_view rule;
+  std::string_view rule;    ///< the fill rule: "even-odd" or "non-zero"
   std::string defect;       ///< the fault that was repaired
   double area_drawn = 0;    ///< Σ signed areas of the rings as given [m²]
   double area_changed = 0;  ///< repaired − drawn [m²]
@@ -105,7 +115,8 @@ struct RepairNote {
 
 /// One piece of a floe after all cuts.
 struct CutPiece {
-  std::int64_t floe_id = 0;
+  std::int64_t floe_id = 0;  ///< new id, larger than those of all floes of the text
+  /// Side of the last disc or polygon on which the piece lies; outside if there was none.
   geometry::Part part = geometry::Part::kOutside;
   double area = 0;  ///< [m²]
   geometry::Polygon polygon;
@@ -113,8 +124,8 @@ struct CutPiece {
 
 /// Result of all cuts for one floe. area_of_pieces + removed = area + rounding_defect.
 struct CutFloe {
-  std::int64_t floe_id = 0;
-  std::size_t feature = 0;
+  std::int64_t floe_id = 0;  ///< id in the text, or the floe's number in the text if floes are numbered
+  std::size_t feature = 0;   ///< this and the next two say where the floe is in the text, as in FloeEntry
   std::size_t member = 0;
   std::size_t line = 0;
   double area = 0;            ///< area of the floe, after its repair if it was repaired [m²]
@@ -125,47 +136,53 @@ struct CutFloe {
   /// Number of pieces whose vertices, rounded to the nearest doubles, did not make a valid polygon.
   int snap_rounded = 0;
   double rounding_defect = 0;  ///< area that the rounding of vertices changed [m²]
-  /// Σ exact areas of pieces + removed − floe, over all cuts, as a rational number; "0" unless there is a bug
+  /// Σ exact areas of the pieces of a cut + removed − piece that was cut, as a rational number, of the last cut for
+  /// which it is not 0; "0" unless there is a bug.
   std::string exact_defect = "0";
   std::vector<CutPiece> pieces;
   /// Length of lines that separate nothing: they end inside the ice, or lead from hole to hole [m].
   double dangling_length = 0;
+  /// Reason why its outline was refused, and it has no pieces; or why the last cut that failed did, and it has pieces.
   std::optional<Rejection> rejected;
-  std::optional<RepairNote> repair;
+  std::optional<RepairNote> repair;               ///< only if its outline was repaired
   std::shared_ptr<const std::string> properties;  ///< properties that the pieces inherit, as in FloeEntry
   std::optional<std::string> source_id;           ///< id in the text as JSON, if floes are numbered instead
 };
 
 /// Result of cutting all floes of a text.
 struct CutReport {
-  std::vector<CutOp> ops;
+  std::vector<CutOp> ops;      ///< the cuts, in order
   std::vector<CutFloe> floes;  ///< in the order of the text
   std::string crs;             ///< coordinate system of the text as JSON, which the pieces keep; may be empty
   StatedPlace place;           ///< place on the Earth that the text states, if Polynya wrote it
-  /// Reason why floes are numbered although the text has ids (io/text/floe_ids.hpp); empty: ids are kept.
+  /// Reason why floes are numbered although the text has ids (io/text/floe_ids.hpp); empty: ids are kept, or the text
+  /// has none.
   std::string ids_replaced;
   std::string source_id_key;  ///< name of the property in which a piece then keeps the id of the text
 };
 
-/// Cuts every floe by all cuts in order. A polygon that is not valid is refused, or repaired if a rule is given. A floe
-/// that a cut does not meet stays whole. A floe that geometry fails to cut stays as it was before that cut. Consecutive
-/// lines and cracks cut together, so that their order does not matter.
+/// Cuts every floe by all cuts in order, and returns the report, except for its `crs` and `place`. A polygon that is
+/// not valid is refused, or repaired if a rule is given. A piece that a cut does not meet stays whole. It counts as
+/// outside of a disc or polygon, so that Keep::kInside removes it. A piece that geometry fails to cut stays as it was
+/// before that cut, and the floe is reported as rejected. Consecutive lines and cracks without must_cut cut together,
+/// so that their order does not matter.
 CutReport cut_floes(const std::vector<FloeEntry>& entries, std::vector<CutOp> ops,
                     std::optional<geometry::FillRule> repair_rule);
 
+/// Returns "inside" or "outside".
 std::string_view name_of(geometry::Part part);
 
 /// Sums over all floes of a report.
 struct CutTotals {
   double area = 0, area_of_pieces = 0, removed = 0, area_slivers = 0, rounding_defect = 0;  ///< [m²]
-  std::string exact_defect = "0";
+  std::string exact_defect = "0";  ///< no sum: that of the last floe that has one; "0" unless there is a bug
   std::size_t floes = 0, pieces = 0, slivers = 0, snap_rounded = 0, repaired = 0, rejected = 0;
   double dangling_length = 0;  ///< [m]
   double area_repaired = 0;    ///< Σ area_changed of repairs [m²]
 };
 CutTotals totals_of(const CutReport& report);
 
-/// The report as JSON: {"tools": […], "floes": […], "totals": {…}} (docs/cut.md).
+/// Returns the report as JSON: {"tools": […], "floes": […], "totals": {…}} (docs/cut.md).
 std::string to_ledger_json(const CutReport& report);
 
 /// Returns all pieces in the order of their floes, with the properties of their floes and the coordinate system.

@@ -14,7 +14,8 @@ namespace polynya::io {
 
 struct JsonMember;
 
-/// A JSON value that stores where it stood in its text. Objects keep the order of their members.
+/// A JSON value that stores where it stood in its text, so that messages can name the place. Objects keep the order of
+/// their members.
 struct JsonValue {
   using Array = std::vector<JsonValue>;
   using Object = std::vector<JsonMember>;
@@ -24,12 +25,14 @@ struct JsonValue {
   using Data = std::variant<std::nullptr_t, bool, double, std::string, Array, Object>;
 
   Data data;
-  std::uint32_t offset = 0;  ///< position of the first byte of the value in its text
+  std::uint32_t offset = 0;  ///< position of the value in its text [bytes]
 
   Kind kind() const { return static_cast<Kind>(data.index()); }
   bool is(Kind other) const { return kind() == other; }
   bool is_null() const { return is(Kind::kNull); }
 
+  /// Return the value of that kind. The caller has checked the kind; a value of another kind throws
+  /// std::bad_variant_access.
   bool boolean() const { return std::get<bool>(data); }
   double number() const { return std::get<double>(data); }
   const std::string& text() const { return std::get<std::string>(data); }
@@ -50,14 +53,16 @@ struct JsonValue {
     const JsonValue* found = find(key, Kind::kText);
     return found && found->text() == text;
   }
-  /// Sets a member of an object, and adds it if the object has none. Does nothing if this is not an object.
+  /// Sets a member of an object, and adds it if the object has none. A member that is added has the position of the
+  /// object. Does nothing if this is not an object.
   void set(std::string_view key, Data value);
   JsonValue* find(std::string_view key) { return const_cast<JsonValue*>(std::as_const(*this).find(key)); }
 };
 
+/// A member of an object.
 struct JsonMember {
   std::string key;
-  std::uint32_t key_offset = 0;  ///< position of the opening quote of the key
+  std::uint32_t key_offset = 0;  ///< position of the opening quote of the key in the text [bytes]
   JsonValue value;
 };
 
@@ -76,7 +81,8 @@ inline void JsonValue::set(std::string_view key, Data value) {
   member->data = std::move(value);
 }
 
-/// Calls use(offset) for the position of a value and of everything within it, and for the positions of keys.
+/// Calls use(offset) for the position of a value and of everything within it, and for the positions of keys. `use` may
+/// change them, for example if the value becomes part of another text.
 template <class Use>
 void for_offsets(JsonValue& value, Use use) {
   use(value.offset);
@@ -90,36 +96,43 @@ void for_offsets(JsonValue& value, Use use) {
   }
 }
 
-/// Position of the value at a path such as "hull.length_m" or "rows[2].t_s", or of the last value on the way that
-/// exists.
+/// Returns the position [bytes] of the value at a path such as "hull.length_m" or "rows[2].t_s", or of the last value
+/// on the way that exists, as the place of a message about a value that may be missing.
 std::uint32_t nearest_offset(const JsonValue& root, std::string_view path);
 
-/// Name of a kind in messages: "a number", "text" and so on.
+/// Returns the name of a kind in messages: "a number", "text" and so on.
 std::string_view name_of(JsonValue::Kind kind);
 
-/// Return the member of that key (and of that kind); throw ReadError if there is none.
+/// Return the member of that key (and of that kind). Throw ReadError with the key if there is none. A reference into
+/// `value` is returned.
 const JsonValue& json_member(const JsonValue& value, std::string_view key);
 const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind);
 
-/// Deepest nesting of lists and objects that is read. It bounds the stack of the recursive reader.
+/// Deepest nesting of lists and objects that is read. It bounds the stack of the recursive reader. A smaller value
+/// would refuse foreign files with deep properties, a much larger one could let a wrong file crash the program.
 inline constexpr std::size_t kDeepestNesting = 64;
-inline constexpr std::size_t kLongestText = std::size_t{256} << 20;  ///< longest text that is read [bytes]
+/// Longest text that is read [bytes]. It bounds the memory that a wrong file can take, and keeps positions within 32
+/// bits. No reader of JSON can accept longer texts, whatever its own limit is.
+inline constexpr std::size_t kLongestText = std::size_t{256} << 20;
 
-/// A fault of a JSON text that is found before its meaning is read. Only a key that occurs twice has a path.
+/// A fault of a JSON text that is found before its meaning is read. Only a key that occurs twice has a path (the key);
+/// after any other fault the rest of the text was not read.
 struct JsonFault : Problem {
   std::uint32_t offset = 0;  ///< position in the text [bytes]
 };
 
 struct JsonDocument {
   JsonValue root;
-  std::vector<JsonFault> faults;  ///< empty if the text has no fault
+  std::vector<JsonFault> faults;  ///< in the order of the text; empty if it has none
 };
 
 /// Reads JSON with // and /* */ comments. A syntax error ends the reading; the root is then the part that was read. A
-/// key that occurs twice is a fault, and its first value counts. Nesting and length are limited.
+/// key that occurs twice is a fault, its first value counts, and the reading goes on. Nesting and length are limited
+/// (kDeepestNesting, kLongestText).
 JsonDocument parse_json(std::string_view text);
 
-/// Returns the first fault of a document in words, "12:5: found '=', allowed: a colon". Needs a document with a fault.
+/// Returns the first fault of a document in words with line and column, "12:5: found '=', allowed: a colon". `text` is
+/// the text of the document, which must have a fault.
 std::string first_fault(const JsonDocument& document, std::string_view text);
 
 /// Reads JSON in which NaN, Infinity and numbers beyond the range of a double may also occur, as Python and other
@@ -128,7 +141,8 @@ std::string first_fault(const JsonDocument& document, std::string_view text);
 Result<JsonValue> parse_lenient_json(std::string_view text);
 
 /// Returns the value that begins at `offset` [bytes] of a text that parse_lenient_json accepts, as written but without
-/// blanks and comments. Numbers that are not finite become null.
+/// blanks and comments. So numbers keep their digits in files that Polynya writes. Numbers that are not finite become
+/// null.
 std::string compact_json(std::string_view text, std::size_t offset);
 
 }  // namespace polynya::io

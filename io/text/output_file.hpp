@@ -16,7 +16,8 @@ namespace polynya::io {
 /// An open file descriptor. Its destructor closes it.
 class Descriptor {
  public:
-  explicit Descriptor(int opened) : opened_(opened) {}  ///< negative: no file
+  /// Takes over a descriptor, as open() returns it; negative: there is no file.
+  explicit Descriptor(int opened) : opened_(opened) {}
   Descriptor(Descriptor&& other) noexcept : opened_(std::exchange(other.opened_, -1)) {}
   Descriptor& operator=(Descriptor&& other) noexcept {
     std::swap(opened_, other.opened_);
@@ -31,40 +32,43 @@ class Descriptor {
   int opened_;
 };
 
-/// Returns true if an open file still has that name.
+/// Returns true if the path still names the open file, and not a link to it or another file.
 bool is_still_at(int descriptor, const std::filesystem::path& path);
 
-/// A file that grows by whole records, such as a line or a frame. Records are buffered. The file on disk always ends
-/// with a whole record: if a write fails half way, the file is cut back to the last whole one. Symbolic links are not
-/// followed, because a run folder may come from somebody else.
+/// A file that grows by whole records, such as a line or a frame. Records are buffered until flush(), sync() or the
+/// destructor writes them. If a write fails half way, for example on a full disk, the file is cut back to its last
+/// whole record. Symbolic links are not followed, because a run folder may come from somebody else.
 class OutputFile {
  public:
-  /// Creates the file. If something already has its name, such as a link, that is removed.
+  /// Creates the file. A file or link that already has its name is removed; a folder of that name is an error.
   static Result<OutputFile> create(const std::filesystem::path& path);
-  /// Opens a file to append to it. `then` is its checksum at the time up to which it is valid; the caller has compared
-  /// it. Bytes beyond that size are cut off. A shorter file, or one that is not a regular file, is refused and not
-  /// changed.
+  /// Opens a file to append to it. `then` is the checksum of the part that is valid, from a checkpoint. The caller has
+  /// compared it with the file. Bytes beyond the size of that part are cut off. A shorter file, a link, or anything
+  /// that is not a regular file, is refused and not changed.
   static Result<OutputFile> reopen(const std::filesystem::path& path, const Checksum& then);
   OutputFile(OutputFile&&) noexcept = default;
   ~OutputFile();
 
+  /// Adds a whole record to the buffer.
   void append(std::string_view record) {
     buffer_ += record;
     record_ends_.push_back(buffer_.size());
   }
   std::size_t buffered() const { return buffer_.size(); }  ///< [bytes]
 
-  /// Writes the buffer to the file. After a failure nothing more is written, and status() keeps the failure.
+  /// Writes the buffer to the file, which then survives the end of the process. Returns false on a failure. After a
+  /// failure nothing more is written, and status() keeps the failure.
   bool flush();
-  /// Writes the buffer and waits until the disk has stored it.
+  /// Does the same and waits until the disk has stored the file, which then survives a failure of the machine.
   bool sync();
   std::uint64_t size() const { return written_.size(); }  ///< on disk [bytes]
-  /// Checksum of the bytes as they were handed to the disk. If the disk changes them later, their checksum differs.
+  /// Returns the checksum of the bytes that were written, computed before they were handed to the disk. If the disk
+  /// changes them, the checksum of the file differs from this one.
   const Checksum& checksum() const { return written_; }
   /// Returns true if the file still has its name, so that it was neither removed nor replaced.
   bool is_in_place() const { return is_still_at(descriptor_, name_); }
   const std::string& name() const { return name_; }
-  /// Discards the buffer.
+  /// Discards the buffer without writing it.
   void drop() {
     buffer_.clear();
     record_ends_.clear();
@@ -82,14 +86,15 @@ class OutputFile {
   Result<> status_;
 };
 
-/// Guarantee that a finished write gives.
+/// Guarantee that a finished write gives. In both cases there is never a part of a file under its name.
 enum class Durability {
-  kRenamed,  ///< the file is complete even if the program ends at any time
-  kSynced,   ///< the file is complete and stored even if the machine fails
+  kRenamed,  ///< the file stays if the program is killed afterwards, but may be lost if the machine fails
+  kSynced,   ///< the file also stays if the machine fails; takes longer, because it waits for the disk
 };
 
-/// Waits until the disk has stored the names in a folder. Does nothing on file systems that cannot do this, and for
-/// folders that cannot be read.
+/// Waits until the disk has stored which names a folder contains. Without it, a new file may be lost if the machine
+/// fails, even if its contents were stored. Does nothing on file systems that cannot do this, and for folders that
+/// cannot be read.
 Result<> sync_folder(const std::filesystem::path& folder);
 
 /// Removes a file, a symbolic link or an empty folder. It is no error if there is none.
@@ -107,15 +112,15 @@ inline std::filesystem::path temporary_name(std::filesystem::path path) {
 Result<> write_whole_file(const std::filesystem::path& path, std::string_view text,
                           Durability durability = Durability::kRenamed);
 
-/// Writes a long text in the same way, in parts: `produce` passes each part to the function that it receives. An
-/// exception of `produce` is passed on, and no file is left.
+/// Writes a long text in the same way, in parts, so that it need not be in memory as a whole. `produce` passes each
+/// part to the function that it receives. An exception of `produce` is passed on, and the old file stays.
 using WritePart = std::function<void(std::string_view)>;
 Result<> write_whole_file_in_parts(const std::filesystem::path& path,
                                    const std::function<void(const WritePart&)>& produce,
                                    Durability durability = Durability::kRenamed);
 
-/// Writes to a name that a user gave. A regular file is replaced in one step, and for a link the file to which it
-/// leads. A pipe or a device is written to.
+/// Writes to a name that a user gave, for example with --out. A regular file is replaced in one step, and for a link
+/// the file to which it leads. A pipe or a device is written to. A folder is refused.
 Result<> write_named_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace polynya::io

@@ -12,11 +12,12 @@
 
 namespace polynya::io {
 
-/// A value, or the reason in words why there is none, with the file, the place and the number if there are any.
+/// A value, or the reason in words why there is none. The reason is a message for the user, with file, place and number
+/// as far as the function that fails knows them.
 template <class Value = void>
 using Result = tl::expected<Value, std::string>;
 
-/// Makes the failure of a Result.
+/// Returns the failure of a Result.
 inline tl::unexpected<std::string> fail(std::string reason) {
   return tl::unexpected<std::string>(std::move(reason));
 }
@@ -26,20 +27,24 @@ struct ReadError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A text with its name. Messages use both to state a place.
+/// A text with its name. Messages need both to state a place.
 struct SourceText {
   std::string name;  ///< name for messages, usually the path of the file
   std::string text;
 };
 
+/// Place in a text.
 struct LineAndColumn {
   int line = 1;    ///< from 1
   int column = 1;  ///< from 1, in characters (code points); a tab counts as one
 };
 
+/// Returns the place of a byte of a text by its position [bytes]; a position beyond the text gives its end. Takes time
+/// in proportion to the position; LineIndex is faster for many places.
 LineAndColumn line_and_column(std::string_view text, std::size_t offset);
 
-/// Calls use(piece, offset) for each piece of a text between separators, such as lines.
+/// Calls use(piece, offset) for each piece of a text between separators `sign`, such as lines. `offset` is the position
+/// of the piece [bytes]. Pieces may be empty, but there is no piece behind a separator at the end of the text.
 template <class Use>
 void for_pieces(std::string_view text, char sign, Use use) {
   for (std::size_t start = 0; start < text.size();) {
@@ -49,20 +54,21 @@ void for_pieces(std::string_view text, char sign, Use use) {
   }
 }
 
-/// Returns the text without blanks at both ends.
+/// Returns the part of a text without blanks (kBlanks) at both ends.
 std::string_view trimmed(std::string_view text);
 inline constexpr std::string_view kBlanks = " \t\r\n";
 
-/// Stores where lines start, so that many places in a long text are found quickly.
+/// Stores where lines end, so that many places in a long text are found quickly. The text must outlive it.
 class LineIndex {
  public:
   explicit LineIndex(std::string_view text);
+  /// Return the line, from 1, and the place of a position in the text [bytes].
   int line_of(std::size_t offset) const;
   LineAndColumn at(std::size_t offset) const;
 
  private:
   std::string_view text_;
-  std::vector<std::size_t> ends_;
+  std::vector<std::size_t> ends_;  ///< positions of the line breaks [bytes]
 };
 
 /// Effect of a problem: an error refuses the file, the others do not. In the order of name_of().
@@ -72,39 +78,42 @@ enum class Severity {
   kHint,     ///< the value is unusual
 };
 
+/// Returns the word for messages: "error", "warning" or "hint".
 std::string_view name_of(Severity severity);
 
 /// One problem of an input file, with its place.
 struct Problem {
-  std::string file = {};
-  int line = 0;           ///< from 1; 0: there is no place, as for an option on the command line
-  int column = 0;         ///< from 1, in characters; a tab counts as one
-  std::string path = {};  ///< path of the JSON value: "ships[0].hull.length_m"
-  std::string found = {};
-  std::string allowed = {};
+  std::string file = {};        ///< name of the file or of the option
+  int line = 0;                 ///< from 1; 0: there is no place, as for an option on the command line
+  int column = 0;               ///< from 1, in characters; a tab counts as one
+  std::string path = {};        ///< path of the JSON value: "ships[0].hull.length_m"
+  std::string found = {};       ///< what the file has, in words or as written
+  std::string allowed = {};     ///< what is allowed there, in words
   std::string suggestion = {};  ///< nearest known key or choice; empty: none is near
   std::string sentence = {};    ///< message that replaces found and allowed if these do not fit; empty: they fit
   Severity severity = Severity::kError;
 };
 
-/// Longest path of a value that messages show [bytes]. A longer one is shortened.
+/// Longest path of a value that messages show [bytes]. A longer one, which a wrong file may have, is shortened.
 inline constexpr std::size_t kLongestPath = 160;
 
-/// Returns the message: "found 0, allowed: a number > 0, ≤ 20 [m]".
+/// Returns the message without its place: "found 0, allowed: a number > 0, ≤ 20 [m]".
 std::string message_of(const Problem& problem);
 
 /// Returns the message with its place: "scene.json:12:5: ice.thickness_m: found 0, allowed: a number > 0, ≤ 20 [m]".
 /// The severity follows the place if it is not an error: "scene.json:9:3: hint: ice.thickness_m: …".
 std::string to_string(const Problem& problem);
 
-/// Makes a text from a file printable: control characters and bytes that are not UTF-8 are written as \x8f.
+/// Returns a text from a file so that a terminal can show it safely: control characters, also line breaks, and bytes
+/// that are not UTF-8 are written as \x8f.
 std::string printable(std::string_view text);
 
-/// Shortens a text to at most `most` bytes. It is cut between two characters, and "…" is appended.
+/// Returns a text of at most `most` bytes as it is. A longer one is cut to that length between two characters, and "…"
+/// is appended.
 std::string shortened(std::string_view text, std::size_t most);
 
-/// Returns the contents of a regular file. Fails with a message if it cannot be read or is longer than `longest`
-/// [bytes].
+/// Returns the contents of a regular file. Fails if it cannot be read or is longer than `longest` [bytes]. The message
+/// does not have the file's name, which the caller adds.
 Result<std::string> read_text_file(const std::filesystem::path& path, std::uint64_t longest);
 
 }  // namespace polynya::io
