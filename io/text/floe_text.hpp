@@ -90,8 +90,8 @@ struct FloeText {
 /// if the text cannot be read at all.
 Result<FloeText> read_floe_text(std::string text);
 
-/// Reads the polygons of one GeoJSON value in the same way, but without properties and "crs", which are copied from the
-/// text. Lines of entries are 1.
+/// Reads the polygons of one GeoJSON value in the same way, but with no properties except floe_id, and without "crs",
+/// because these are copied from a text. Lines of entries are 1.
 FloeText read_floe_json(const JsonValue& geojson);
 
 /// Appends "POLYGON ((…), (…))" with numbers that read back to the same doubles.
