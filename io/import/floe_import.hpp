@@ -39,14 +39,14 @@ struct ImportedFloe {
   std::size_t source = 0;     ///< index of the floe of the file from which it was made; of joined floes the first one
 };
 
-/// What an import did to one floe of the file. Only floes that were changed or refused have one. Floes of the file are
-/// named by their index in it. All areas are in m²; an added area is negative if area was lost.
+/// Changes that an import made to one floe of the file. Only floes that were changed or refused have one. Floes of the
+/// file are named by their index in it. All areas are in m²; an added area is negative if area was lost.
 struct ImportItem {
   std::size_t source = 0;  ///< index of the floe
   std::string refused;     ///< reason why it, or a piece of it, was refused and is not written; empty: it was not
   bool is_outline_refused = false;       ///< true if it was refused for its outline, which a repair may make valid
   std::vector<std::size_t> joined;       ///< other floes that were joined to this one, which is the first of them
-  std::optional<std::size_t> joined_to;  ///< floe to which this one was joined; this one then has no pieces of its own
+  std::optional<std::size_t> joined_to;  ///< floe to which this one was joined; this one then becomes no floe itself
   bool is_closed = false;                ///< true if a slit in it was closed without joining it to another floe
   double joined_area = 0;                ///< area that joining, or closing a slit, added
   std::string defect;                    ///< fault of its outline, which was repaired; empty: it had none
@@ -66,23 +66,18 @@ struct ImportItem {
 /// Counts of floes and sums of areas over an import. Unless stated otherwise the counts are of floes of the file. Each
 /// sum of areas [m²] is computed exactly and rounded once, except `area_repaired`, which adds up rounded areas.
 struct ImportTotals {
-  std::size_t read = 0;        ///< all floes of the file, including those that were refused
-  std::size_t joined = 0;      ///< floes that became part of another one
-  std::size_t refused = 0;     ///< floes that were not written because something is wrong with them
-  std::size_t repaired = 0;    ///< floes whose outline was made valid
-  std::size_t simplified = 0;  ///< floes that lost vertices
-  std::size_t trimmed = 0;     ///< floes of which area was cut off for larger floes or the gap
-  std::size_t dropped = 0;     ///< floes of which no piece is left, because all were too small or were cut off
-  std::size_t written = 0;     ///< floes that are written; a floe of the file that was cut apart counts several times
+  /// Numbers of floes that were read in all; that became part of another one by joining; that were refused because
+  /// something is wrong with them; whose outline was made valid; that lost vertices; of which area was cut off for
+  /// larger floes or the gap; and of which no piece is left because all were too small or cut off. `written` is the
+  /// number of floes in the result: a floe of the file that was cut apart counts several times.
+  std::size_t read = 0, joined = 0, refused = 0, repaired = 0, simplified = 0, trimmed = 0, dropped = 0, written = 0;
   std::size_t with_thickness = 0;  ///< floes among those written that have their own thickness
   double area_read = 0;            ///< area in the plane, as drawn, of all floes that were read and not refused then
-  double area_joined = 0;          ///< area that joining and closing of slits added
-  double area_repaired = 0;        ///< area that repairs added
-  double area_simplified = 0;      ///< area that leaving out vertices added
-  double area_trimmed = 0;         ///< area that was cut off for larger floes and gaps; positive
-  double area_dropped = 0;         ///< area of dropped pieces; positive
-  double area_written = 0;         ///< area of the floes that are written
-  double area_change = 0;          ///< written − read
+  /// Areas that joining (and closing of slits), repairs and simplifying added; areas that were cut off for larger floes
+  /// and gaps, and that dropped pieces had, both positive.
+  double area_joined = 0, area_repaired = 0, area_simplified = 0, area_trimmed = 0, area_dropped = 0;
+  double area_written = 0;  ///< area of the floes in the result
+  double area_change = 0;   ///< written − read
 };
 
 /// Result of an import.
@@ -133,18 +128,18 @@ ImportedIds ids_of(const ImportOutcome& imported, const std::vector<SourceFloe>&
 
 /// Returns the imported floes as a GeoJSON FeatureCollection in metres of the plane, one feature per line, with members
 /// that state the place of the plane on the Earth. A feature has Polynya's properties of its floe, and all other
-/// properties of its source unchanged. `floes` are those of import_floes(); `entries` are the entries of the file, one
-/// for each of its floes.
+/// properties of its source unchanged. `floes` are the ones that import_floes() was given; `entries` are the entries of
+/// the file, one for each of its floes.
 std::string to_geojson(const ImportOutcome& imported, const std::vector<SourceFloe>& floes,
                        const std::vector<FloeEntry>& entries, const ImportedIds& ids);
 
 /// Returns the report of an import as JSON (docs/import.md): totals, how the coordinates were projected, and each floe
 /// that was changed or refused. `file` is the name of the file, `read` has the near misses, and `notes` are all notes
-/// of the import, including those of `read`.
+/// of the import, also the ones in `read`.
 std::string to_json_text(const ImportOutcome& imported, const std::string& file, const std::vector<FloeEntry>& entries,
                          const FloesOfText& read, const std::vector<std::string>& notes);
 
-/// Returns the counts in words, without those that are 0: "812 floes read, 3 repaired, 12 trimmed, 2 dropped, 1
+/// Returns the counts in words; a count of 0 is left out: "812 floes read, 3 repaired, 12 trimmed, 2 dropped, 1
 /// refused; 809 written".
 std::string counts_in_words(const ImportTotals& totals);
 
@@ -152,7 +147,7 @@ std::string counts_in_words(const ImportTotals& totals);
 /// the scene.
 std::string thickness_in_words(std::size_t with_thickness, std::size_t floes);
 
-/// Returns the balance of areas in words, without terms that are 0: "123.4 m2 read + 0.5 repaired - 3 trimmed - 1
+/// Returns the balance of areas in words; a term of 0 is left out: "123.4 m2 read + 0.5 repaired - 3 trimmed - 1
 /// dropped = 119.9 m2 written".
 std::string areas_in_words(const ImportTotals& totals);
 

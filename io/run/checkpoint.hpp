@@ -53,7 +53,7 @@ Result<> write_checkpoint_file(const std::filesystem::path& path, const Checkpoi
 /// simulation's state in it is not checked; simulation_at() does that.
 Result<Checkpoint> read_checkpoint(std::string_view bytes);
 
-/// Returns true if the name of a file is that of a checkpoint: "checkpoint-", 12 digits, ".bin". The file is not read.
+/// Returns true if a file has the name of a checkpoint: "checkpoint-", 12 digits, ".bin". The file is not read.
 bool is_checkpoint(const std::filesystem::path& path);
 
 /// Returns the checkpoints in a run folder, newest first; none if there is no such folder. The name of a checkpoint has

@@ -81,8 +81,9 @@ struct ForceColumn : Column<simulation::HullSample> {
   std::string_view unit;  ///< unit for people: "N·m"; empty for a number without a unit
   Over over = Over::kAtEnd;
   std::optional<ShownWhere> peak = {};  ///< scenes whose summary.json has its largest magnitude; none: it has no peak
-  /// Scenes in which the player plots it; none: those of `peak`. With neither, and with kAlways or kWhereItSplits, it
-  /// is plotted in every scene (the player hides curves of the paper where j/τ_c does not decide splits).
+  /// Scenes in which the player plots it; none: the same scenes as for `peak`. With neither, and with kAlways or
+  /// kWhereItSplits, it is plotted in every scene (the player hides curves of the paper where j/τ_c does not decide
+  /// splits).
   std::optional<ShownWhere> plotted = {};
   std::string plot = {};            ///< title of its plot in the player; empty: the player does not plot it
   std::string_view curve = "mean";  ///< kind of its curve in that plot: "mean", "max" or "paper"
@@ -117,11 +118,11 @@ struct ForceCause {
   std::string_view words;          ///< name for people: "ice: friction"
   std::string_view column;         ///< column of forces.csv: "surge_from_ice_friction_N"
   std::string_view share_of = {};  ///< column of the cause of which this one is a share; empty: it is no share
-  /// Name for what is left of this cause if its shares are shown separately; empty: it has no shares.
+  /// Name for the rest of this cause if its shares are shown separately; empty: it has no shares.
   std::string_view without_shares = {};
 };
 
-/// Returns all causes, first those of surge, then those of sway and of yaw.
+/// Returns all causes: first of surge, then of sway, then of yaw.
 std::span<const ForceCause> force_causes();
 
 /// Returns the causes whose columns the player plots for runs of the scene.
@@ -188,7 +189,7 @@ std::string header_of(std::string_view file);
 void append_forces_row(std::string& text, const simulation::HullSample& sample, const simulation::Scene& scene);
 
 /// contacts.csv: a contact of two bodies, either at a frame, or at the peak of its force with the reason why it ended.
-/// `time` [s] is that of the frame or of the peak.
+/// `time` is the time of the frame or of the peak [s].
 void append_contact(std::string& text, double time, const simulation::ContactState& contact,
                     const simulation::Scene& scene);
 
@@ -231,7 +232,7 @@ simulation::FloeId floe_id(const JsonValue& value);
 
 /// Returns the data of a line of floes.ndjson, without its shape (read_shape).
 simulation::BirthRecord birth_of(const JsonValue& line);
-/// Returns a row of forces.csv. `columns` are those of its header (force_columns_in).
+/// Returns a row of forces.csv. `columns` are the columns that its first line names (force_columns_in).
 simulation::HullSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
                                  const simulation::Scene& scene);
 // For these two, `run` must already have its scene and its floes, whose names and ids the rows contain.

@@ -32,7 +32,7 @@ std::int64_t last_step_of(const simulation::StepSettings& time);
 /// `overwrite`, an earlier run in the folder is replaced (claim_run_folder).
 Result<ActiveRun> start_run(const std::filesystem::path& folder, const LoadedScene& scene, bool overwrite = false);
 
-/// Continues a run from a checkpoint, which is read from `file`. `lock` is that of the run folder. Whatever the folder
+/// Continues a run from a checkpoint, which is read from `file`. `lock` locks the run folder. Whatever the folder
 /// has beyond the checkpoint is cut off (RunWriter::resume). The run goes to the end of `scene`, which may differ from
 /// the former end of the run, but not from anything else in its scene. Fails if the checkpoint is damaged, of another
 /// run, or after that end, and if the folder is damaged.
@@ -43,8 +43,8 @@ Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::
 Result<simulation::Simulation> simulation_at(const LoadedScene& scene, const Checkpoint& checkpoint);
 
 /// Returns a checkpoint of a run between two steps. `progress` is the state of the folder (RunWriter::sync),
-/// `wall_time` that of the run so far [s]. The journal of the simulation must have been written to the folder before,
-/// because the checkpoint does not contain it.
+/// `wall_time` the wall time of the run so far [s]. The journal of the simulation must have been written to the folder
+/// before, because the checkpoint does not contain it.
 Checkpoint checkpoint_of(const simulation::Simulation& simulation, const LoadedScene& scene, RunProgress progress,
                          double wall_time);
 
@@ -63,15 +63,17 @@ struct RunStatus {
 /// each step record_step() and frame_if_due(), from time to time checkpoint(), and end() at last.
 class RunRecorder {
  public:
-  /// `wall_time` is that of the run before it was resumed [s]. All other arguments must exist longer than this object.
+  /// `wall_time` is the wall time of the run before it was resumed [s]. All other arguments must exist longer than this
+  /// object.
   RunRecorder(simulation::Simulation& simulation, RunWriter& writer, const LoadedScene& scene, double wall_time = 0);
   /// Records the initial state of a new run and its first frame. Call it once before the first step, and not for a run
-  /// that was resumed (RunWriter::has_begun). `journal` is that of a simulation of the scene before its first step; it
+  /// that was resumed (RunWriter::has_begun). `journal` is the journal of a simulation of the scene before its first
+  /// step; it
   /// contains the floes of the scene, and is emptied.
   void begin(simulation::Journal& journal);
   /// Writes the journal of the last step and empties it. Call it after every step.
   void record_step() { writer_.record(simulation_.journal()); }
-  /// Writes a frame if one is due at this tick (record.frames_interval of the scene). Call it after every step.
+  /// Writes a frame if one is due at this tick (RecordSettings::frames_interval). Call it after every step.
   void frame_if_due() {
     if (is_frame_due()) writer_.frame(simulation_);
   }

@@ -74,7 +74,7 @@ class RunWriter {
   /// Returns the state of the folder, which the checkpoint contains. Fails with status().
   Result<RunProgress> sync();
 
-  /// Returns the first failure to write a file of the folder; success if there was none.
+  /// Returns a failure to write a file of the folder; success if there was none.
   Result<> status() const;
 
   /// Returns the names of growing files that have become longer than `longest` [bytes], so that they cannot be read
@@ -86,7 +86,7 @@ class RunWriter {
 
   /// Ends the run: writes the buffers, final.geojson if a simulation is given (null: it is not written), and the last
   /// summary.json. For a finished run, the order makes the folder valid at any time: first all files, then the summary
-  /// with "finished": true, then all checkpoints except that of the end are removed, and the checksums of all files are
+  /// with "finished": true, then all checkpoints but the last one are removed, and the checksums of all files are
   /// written. For a run that was stopped, the summary is written before final.geojson, checkpoints stay, and there are
   /// no checksums. If is_displaced(), nothing is written. Fails if a file cannot be written.
   Result<> finish(const RunSummary& summary, const simulation::Simulation* simulation);
@@ -134,7 +134,7 @@ class RunWriter {
   std::vector<ShipPeaks> peaks_;
   RunLock lock_;
   std::string record_;  ///< record that append() builds; a member so that its memory is used again
-  Result<> status_;     ///< first failure that is not one of a growing file, or the displacement of one
+  Result<> status_;     ///< failure to write a rejected cut, or displacement of the folder or a growing file
   std::chrono::steady_clock::time_point last_flush_;
   bool is_displaced_ = false;
   bool has_begun_ = false;

@@ -98,12 +98,16 @@ class FloeListReader {
   void add_fast_ice(const ChannelInput& channel);
   /// Adds fast ice at rest with these outlines.
   void add_fast(std::vector<geometry::Ring> rings, const FloeProperties& ice);
+  /// Reports a floe file in metres of another plane than an earlier file. `offset` is that of its name in the scene.
   void check_places(const FileReport& came, std::uint32_t offset);
+  /// Returns the entry by which the resolved scene represents one floe of a file. `is_of_run`: a run wrote the file.
   FloeGroup spelled_out(FileFloe& floe, bool is_of_run) const;
   /// Adds one floe to the draft, with the motion of `group`. `given` are its own ice properties; its other properties
   /// must already be in `group`.
   void add_floe(const FloeGroup& group, geometry::Polygon polygon, const FloeProperties& given, Origin origin);
+  /// Reports what fast ice must not have, if the entry is fast ice.
   void check_fast_ice(bool is_fast);
+  /// Returns the index of the ship with this name under whose hull a floe is; −1, and a report, if there is none.
   int ship_over(const std::string& name, const Origin& origin);
   /// Returns true if the scene may have `count` more floes; otherwise reports at `path` that there would be too many.
   bool has_room_for(std::size_t count, const std::string& path);
