@@ -10,48 +10,56 @@
 
 namespace polynya::io {
 
-/// Coordinates of a coordinate system, turned and shifted.
+/// Coordinates in which points are given: those of a coordinate system, turned about its origin by −`turn` and then
+/// shifted by `shift`. Frames in degrees are neither turned nor shifted.
 struct CoordinateFrame {
-  std::string system;           ///< coordinate system, as GDAL knows it (find_crs)
-  bool is_in_degrees = false;   ///< coordinates are longitude and latitude [°]
-  bool is_metric = false;       ///< coordinates lie in a plane and are in metres
-  double turn = 0;              ///< direction of the x axis in the system, counter-clockwise [rad]
+  std::string system;           ///< coordinate system: a code, PROJ string or WKT that find_crs() accepts
+  bool is_in_degrees = false;   ///< true: coordinates are longitude and latitude [°], longitude first
+  bool is_metric = false;       ///< true: coordinates lie in a plane and are in metres
+  double turn = 0;              ///< direction of the frame's x axis in the system, counter-clockwise [rad]
   geometry::Vector shift = {};  ///< vector that was added to the coordinates after they were turned [m]
 };
 
-/// Returns the plane about a place on WGS 84: azimuthal equidistant (PROJ's aeqd), with the x axis along the heading of
-/// the origin. Distances and directions from the origin are exact. At the distance d from the origin, lengths across
-/// that direction have a relative error of d²/(6 R²), with R the radius of the Earth: 4 mm over 10 km.
+/// Returns the plane about a place on WGS 84, in metres, with the origin at (0, 0) and the x axis along the origin's
+/// heading. The projection is azimuthal equidistant (PROJ's aeqd). Distances and directions from the origin are exact.
+/// At the distance d from the origin, lengths across that direction have a relative error of d²/(6 R²), with R the
+/// radius of the Earth: 4 mm over 10 km.
 CoordinateFrame frame_about(const simulation::GeographicOrigin& origin);
 
 /// Returns the frame of longitude and latitude on WGS 84.
 CoordinateFrame in_degrees();
 
-/// Transforms points from one frame to another, in their order. A point without an image becomes NaN.
+/// Transforms points from one frame to another, and returns them in their order. A point without an image in the other
+/// system becomes NaN. Fails if GDAL is missing or refuses a system.
 Result<std::vector<geometry::Point>> project(const std::vector<geometry::Point>& points, const CoordinateFrame& from,
                                              const CoordinateFrame& to);
 
-/// A line or a ring in two frames.
+/// A line or a ring in two frames: the file's coordinates and the plane, or the other way round.
 struct ProjectedLine {
-  geometry::Ring from;
-  geometry::Ring to;  ///< image of each point of `from`; NaN if it has none
-  bool is_closed = false;
+  geometry::Ring from;     ///< points in the frame that is transformed
+  geometry::Ring to;       ///< image of each point of `from` in the other frame; NaN if it has none
+  bool is_closed = false;  ///< true: a ring, with an edge from the last point to the first
 };
 
-/// Returns a line as project_vertices expects it: in degrees its longitudes are continuous and it has no seams to a
-/// pole.
+// To transform lines: make each with line_in(), call project_vertices(), then add_points(), and take each image_of().
+
+/// Returns a line in the form that project_vertices() expects. A ring does not repeat its first point. In degrees its
+/// longitudes are continuous (no jump of 360° at longitude 180), and a ring around a pole has no seam to the pole.
 ProjectedLine line_in(const CoordinateFrame& frame, geometry::Ring points, bool is_closed);
 
-/// Computes the images of all points.
+/// Computes the image `to` of each point of the lines. Fails if GDAL is missing or refuses a system.
 Result<> project_vertices(std::vector<ProjectedLine>& lines, const CoordinateFrame& from, const CoordinateFrame& to);
 
-/// Halves edges, by adding points, until their straight images are within `tolerance` [m] of the exact ones. The added
-/// points do not depend on the direction in which an edge is drawn, so that two floes with a common edge keep it. Needs
-/// the images of project_vertices; lines with NaN are left out.
+/// Adds points to edges, because the image of a straight edge is curved. Edges are halved until their straight images
+/// are within `tolerance` [m] of the curved ones. A smaller tolerance adds more points; with 0, or if both frames have
+/// the same system, none are added. The added points do not depend on the direction in which an edge is drawn, so two
+/// floes with a common edge keep it. Needs the images of project_vertices(); lines with an image that is NaN get no
+/// points. Fails if GDAL is missing or refuses a system.
 Result<> add_points(std::vector<ProjectedLine>& lines, const CoordinateFrame& from, const CoordinateFrame& to,
                     double tolerance);
 
-/// Returns the image of a line. Points of a ring that occur twice because a pole has every longitude are removed.
+/// Returns the image of a line. In a ring, equal neighbouring points are removed; they occur because a pole, which has
+/// every longitude, may be several points in degrees.
 geometry::Ring image_of(const ProjectedLine& line);
 
 }  // namespace polynya::io

@@ -13,21 +13,26 @@ namespace polynya::io {
 
 /// A floe of final.geojson.
 struct FinalFloe {
-  simulation::FloeId floe = 0;
-  geometry::Polygon polygon_in_world;  ///< [m]
+  simulation::FloeId floe = 0;         ///< id of the floe in its run
+  geometry::Polygon polygon_in_world;  ///< outline in world coordinates, rings without a repeated first point [m]
 };
 
-/// The file final.geojson of a run, which has the floating floes of one instant in the world. It is parsed one floe at
-/// a time, because all floes of a large run need several times the memory of the file's text.
+/// The file final.geojson of a run: all floes that float at the end of the run, at their places in the world. The text
+/// is kept in memory and parsed one floe at a time, because parsed floes of a large run would need several times the
+/// memory of the text. This is a quick way to the last places of floes, without reading the whole run folder.
 class FinalFloes {
  public:
-  /// Reads the file. Returns nothing if the folder has no final.geojson, or if the run has no folder. The error names
+  /// Reads the file and the time in its first line. Returns nothing if the folder has no final.geojson, or if
+  /// `run_folder` is empty, as for a run that was not read from a folder. Fails if the file cannot be read, is longer
+  /// than kLongestRunFile, or is not written as a run writes it, with each floe on a line of its own. The error names
   /// the file and the line.
   static Result<std::optional<FinalFloes>> read(const std::filesystem::path& run_folder);
 
-  double time() const { return time_; }  ///< time of the instant [s]
+  double time() const { return time_; }  ///< simulated time at which the floes have these places [s]
 
-  /// Calls use(floe) for each floe of the file. The error names the file and the line.
+  /// Calls use(floe) for each floe of the file, in its order. Stops at the first line that is not a floe, and fails
+  /// with an error that names the file and the line; the floes before it have then been used already. If use() throws
+  /// ReadError, that is reported in the same way.
   Result<> for_each(const std::function<void(const FinalFloe&)>& use) const;
 
  private:

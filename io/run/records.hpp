@@ -21,20 +21,23 @@
 
 namespace polynya::io {
 
-/// A column of forces.csv, contacts.csv, crushed.csv or panels.csv after the columns that name time and bodies. Writer,
-/// reader, Python and docs/run-folder.md follow these tables; a test compares the page. To add a column, append it to
-/// its table in records.cpp, and add the row that the test prints to the page.
+/// A column of forces.csv, contacts.csv, crushed.csv or panels.csv. The first columns, which name time and bodies, are
+/// not in these tables. Row is the record that makes one row of the file. Writer, reader and Python follow the tables
+/// of columns. A test compares docs/run-folder.md with them, except for crushed.csv, whose columns the page explains in
+/// prose. To add a column, append it to its table in records.cpp, and add the row that the test prints to the page.
 template <class Row>
 struct Column {
-  std::string name;     ///< name with its unit: "surge_N"
+  std::string name;     ///< name with its unit, in the first line of the file: "surge_N"
   std::string meaning;  ///< description in docs/run-folder.md
-  /// Returns the value; NaN if there is none; for a column of words the index in `words`.
+  /// Returns the value of a record in the unit of `name`; NaN if there is none; for a column of words the index in
+  /// `words`.
   std::function<double(const Row&)> read;
+  /// Stores such a value in a record. Throws ReadError if a whole number is needed and it is none.
   std::function<void(Row&, double)> store;
-  std::span<const std::string_view> words = {};  ///< values of a column that has words instead of numbers
+  std::span<const std::string_view> words = {};  ///< possible values of a column of words; empty: a column of numbers
 };
 
-/// Removes the first field from a row and returns it.
+/// Removes the first field and its comma from a row, and returns the field.
 inline std::string_view csv_field(std::string_view& row) {
   const std::string_view field = row.substr(0, row.find(','));
   row.remove_prefix(std::min(row.size(), field.size() + 1));
@@ -50,72 +53,82 @@ inline std::optional<double> csv_number(std::string_view field) {
   return value;
 }
 
-/// Scenes for which the views show a load.
+/// Condition on a scene under which views show a load and summary.json has its peak. In other scenes the load is 0
+/// or of no interest.
 enum class ShownWhere {
   kAlways,
-  kAmongShips,     ///< scenes with several ships and structures
-  kUnderHulls,     ///< scenes with ships under which ice can go
+  kAmongShips,     ///< scenes with two or more hulls: ships, structures and walls
+  kUnderHulls,     ///< scenes with ships with a draught, under which ice can go
   kInWater,        ///< scenes with ships on which water acts, or that have an engine or a mooring
   kWithEngines,    ///< scenes with ships that have an engine
   kWithThrusters,  ///< scenes with ships that are steered by thrusters
   kWithRudders,    ///< scenes with ships that are steered by rudders
   kRamming,        ///< scenes with ships whose pilots ram
   kMoored,         ///< scenes with moored ships
-  kWhereItSplits   ///< scenes in which j/τ_c decides splits
+  kWhereItSplits   ///< scenes in which the criterion j/τ_c decides whether floes split
 };
 
-/// How a number is computed from the time steps of its interval: as mean, as largest value, or as value at the end.
-enum class Over { kMean, kLargestStep, kAtEnd };
+/// How a number is computed from the time steps of its recording interval.
+enum class Over {
+  kMean,         ///< mean over the interval; it hardly depends on the time step
+  kLargestStep,  ///< value of the step in which its magnitude is largest; it depends on the length of the step
+  kAtEnd         ///< value at the end of the interval
+};
 
-/// A number that forces.csv records for each ship and structure. The peaks of checkpoints and summary.json and the
-/// plots of the player follow this table too.
+/// A number that forces.csv records for each ship, structure and wall. The peaks of checkpoints and summary.json and
+/// the plots of the player follow this table too.
 struct ForceColumn : Column<simulation::HullSample> {
-  std::string_view unit;  ///< unit for people: "N·m"; empty for a count
+  std::string_view unit;  ///< unit for people: "N·m"; empty for a number without a unit
   Over over = Over::kAtEnd;
   std::optional<ShownWhere> peak = {};  ///< scenes whose summary.json has its largest magnitude; none: it has no peak
-  std::optional<ShownWhere> plotted = {};  ///< scenes in which the player plots it, if they differ from those of `peak`
-  std::string plot = {};                   ///< title of its plot in the player; empty: the player does not plot it
-  std::string_view curve = "mean";         ///< curve in that plot: "mean", "max" or "paper"
-  bool is_optional = false;                ///< true if older runs do not have it
+  /// Scenes in which the player plots it; none: the same scenes as for `peak`. With neither, and with kAlways or
+  /// kWhereItSplits, it is plotted in every scene (the player hides curves of the paper where j/τ_c does not decide
+  /// splits).
+  std::optional<ShownWhere> plotted = {};
+  std::string plot = {};            ///< title of its plot in the player; empty: the player does not plot it
+  std::string_view curve = "mean";  ///< kind of its curve in that plot: "mean", "max" or "paper"
+  bool is_optional = false;         ///< true: a forces.csv without it is accepted, because older runs do not have it
 };
 
-/// Returns all columns of forces.csv after t_s and ship.
+/// Returns all columns of forces.csv after t_s and ship, in the order in which they are written.
 std::span<const ForceColumn> force_columns();
 
-/// Returns the column of that name, which must exist.
+/// Returns the column of that name, such as "surge_N". It must exist; there is no check in release builds.
 const ForceColumn& force_column(std::string_view name);
 
-/// Returns true if the views of a scene show loads of this kind.
+/// Returns true if the scene fulfils the condition.
 bool is_shown(ShownWhere where, const simulation::Scene& scene);
 
-/// Returns the columns whose peaks are in summary.json of a run of the scene.
+/// Returns the columns whose peaks are in summary.json of a run of the scene. ShipPeaks::of_column has this order.
 std::vector<const ForceColumn*> peak_columns(const simulation::Scene& scene);
 
 /// Returns the columns that the player plots for runs of the scene.
 std::vector<const ForceColumn*> plotted_columns(const simulation::Scene& scene);
 
-/// Returns the columns that the first line of a forces.csv names after t_s and ship. The error names the column that is
-/// unknown, occurs twice or is missing.
+/// Returns the columns that the first line of a forces.csv names after t_s and ship, in its order. Fails if a column is
+/// unknown, occurs twice, or is missing and not optional; the error names it.
 Result<std::vector<const ForceColumn*>> force_columns_in(std::string_view header);
 
-/// A part of the force on a ship, by its cause. It is a column of forces.csv; columns that are only shares of it are
-/// left out. The parts of one direction add up to the force on the ship, mass × acceleration (docs/run-folder.md).
+/// A part of the force on a ship, by its cause, in one direction. It is a column of forces.csv. The causes of one
+/// direction add up to the force on the ship, mass × acceleration (docs/run-folder.md). A cause that is a share of
+/// another one (the friction of the ice, a share of the force of the ice) must not be added again.
 struct ForceCause {
-  std::string_view direction;      ///< title of the player's plot that stacks the parts: "Surge force by cause"
+  std::string_view direction;      ///< title of the player's plot that stacks the causes: "Surge force by cause"
   std::string_view cause;          ///< short name, which also selects its colour: "friction"
   std::string_view words;          ///< name for people: "ice: friction"
-  std::string_view column;         ///< column of forces.csv
-  std::string_view share_of = {};  ///< column that contains this one; empty: none does
-  /// Name for the rest of a column whose shares are shown separately; empty: it has no shares.
+  std::string_view column;         ///< column of forces.csv: "surge_from_ice_friction_N"
+  std::string_view share_of = {};  ///< column of the cause of which this one is a share; empty: it is no share
+  /// Name for the rest of this cause if its shares are shown separately; empty: it has no shares.
   std::string_view without_shares = {};
 };
 
-/// Returns all causes.
+/// Returns all causes: first of surge, then of sway, then of yaw.
 std::span<const ForceCause> force_causes();
 
 /// Returns the causes whose columns the player plots for runs of the scene.
 std::vector<ForceCause> force_causes(const simulation::Scene& scene);
 
+// Columns of contacts.csv, crushed.csv and panels.csv after those that name time and bodies, in the order of the files.
 using ContactColumn = Column<simulation::ContactState>;
 using CrushedColumn = Column<simulation::CrushedOverlap>;
 using PanelColumn = Column<simulation::PanelSample>;
@@ -123,7 +136,8 @@ std::span<const ContactColumn> contact_columns();
 std::span<const CrushedColumn> crushed_columns();
 std::span<const PanelColumn> panel_columns();
 
-/// Appends the values of a row, each after a comma, and a line break. `none` is written where there is no number.
+/// Appends the values of a row in the order of `columns`, each after a comma, and a line break. `none` is written where
+/// the value is NaN: "null" in tables in which every field must have a number or null, otherwise nothing.
 template <class Row, class Columns>
 void append_row(std::string& text, const Row& row, const Columns& columns, std::string_view none = {}) {
   for (const auto& column : columns) {
@@ -139,10 +153,13 @@ void append_row(std::string& text, const Row& row, const Columns& columns, std::
   text += '\n';
 }
 
-/// Returns the value of a field. Throws ReadError if it is neither a number nor one of the column's words.
+/// Returns the value of a field: with `words` the index of the word, otherwise the number, or NaN for "null" and an
+/// empty field. Throws ReadError for anything else.
 double value_of(std::string_view field, std::span<const std::string_view> words = {});
 
-/// Reads the values of a row. Rows of earlier versions may have fewer values than there are columns. Throws ReadError.
+/// Stores the values of a row in a record. `text` is the row after the fields that name time and bodies. Rows of
+/// earlier versions may have fewer values than there are columns; the rest of the record then keeps its values. Throws
+/// ReadError if a value is wrong or there are too many.
 template <class Row>
 void read_row(std::string_view text, Row& row, std::span<const Column<Row>> columns) {
   for (const Column<Row>& column : columns) {
@@ -152,62 +169,77 @@ void read_row(std::string_view text, Row& row, std::span<const Column<Row>> colu
   if (!text.empty()) throw ReadError("more fields than there are columns");
 }
 
-/// Returns the number of a floe, or nothing for kNoFloe, which records write as null.
+/// Returns the id of a floe, or nothing for kNoFloe. JsonWriter writes a missing value as null.
 inline std::optional<simulation::FloeId> id_or_none(simulation::FloeId floe) {
   return floe == simulation::kNoFloe ? std::nullopt : std::optional(floe);
 }
 
-/// Returns the name of a ship or structure by its index; empty if there is none.
+/// Returns the name of a ship, structure or wall by its index among the hulls of the scene; empty if there is none with
+/// that index, such as −1 for a contact of two floes.
 std::string_view hull_name(const simulation::Scene& scene, int ship);
 
-/// Lines of the files of a run (docs/run-folder.md). Each function appends whole lines to a text.
+// The functions below write the files of a run (docs/run-folder.md). Each of those named append_… appends whole lines
+// to a text, except append_floe.
 
-/// Returns the first bytes of a growing file: for a table its header, the names of the columns with their units.
+/// Returns the first bytes of a growing file, by its name: for a table the names of its columns and a line break, for
+/// frames.bin its binary header, and nothing for the other files.
 std::string header_of(std::string_view file);
 
-/// forces.csv: loads on a hull in a recording interval.
+/// forces.csv: loads on a hull in a recording interval, and its motion at the end of the interval.
 void append_forces_row(std::string& text, const simulation::HullSample& sample, const simulation::Scene& scene);
 
-/// contacts.csv: contacts of bodies at a frame, and the peaks of the force of contacts.
+/// contacts.csv: a contact of two bodies, either at a frame, or at the peak of its force with the reason why it ended.
+/// `time` is the time of the frame or of the peak [s].
 void append_contact(std::string& text, double time, const simulation::ContactState& contact,
                     const simulation::Scene& scene);
 
-/// panels.csv: loads of ice on a panel of a hull in a recording interval.
+/// panels.csv: loads of ice on a panel, which is a section of a hull's side, in a recording interval.
 void append_panel(std::string& text, const simulation::PanelSample& sample, const simulation::Scene& scene);
 
-/// Overlaps smaller than this fraction of the smaller body's area are left out of crushed.csv.
+/// Overlaps smaller than this fraction of the smaller body's area are left out of crushed.csv [-]. A smaller value
+/// makes the file longer; a larger one hides overlaps that the bodies visibly have. It does not change the run, and is
+/// not the limit of the same name in simulation/ice/overlaps.cpp.
 inline constexpr double kLeastCrushedShare = 1e-3;
-/// crushed.csv: paid area of the overlap of two bodies at a frame.
+/// crushed.csv: the overlap of two bodies at a frame, by what became of its ice: crushed, tilted under a hull, or not
+/// yet crushed (CrushedOverlap::unpaid).
 void append_crushed(std::string& text, double time, const simulation::CrushedOverlap& overlap,
                     const simulation::Scene& scene);
 
-/// states.csv: a hash of the whole state at each frame. It shows at which frame two runs begin to differ.
+/// states.csv: a hash of the whole state at a frame, after `steps` ticks. Two runs can be compared by it: it shows at
+/// which frame they begin to differ.
 void append_state(std::string& text, double time, std::int64_t steps, std::uint64_t hash);
 
-/// floes.ndjson: a floe. `parent` is the shape of the floe from which it broke, null for a floe of the scene. With a
-/// scene, the floe's own ice properties and its id in the floe file are written too.
+/// floes.ndjson: a floe when it comes into being. `parent` is the shape of the floe from which it broke, to whose
+/// vertices the line then refers (shape_parts.hpp); with null all vertices are written, as for a floe of the scene.
+/// With a scene, all ice properties of a floe that has its own ice, and the id of the floe in the floe file, are
+/// written too.
 void append_birth(std::string& text, const simulation::Birth& birth, const geometry::Polygon* parent,
                   const simulation::Scene* scene = nullptr);
 
-/// Returns all floes as a GeoJSON FeatureCollection in world coordinates [m].
+/// Returns floes as a GeoJSON FeatureCollection in world coordinates [m], with the time [s] and the origin of the
+/// scene, if it has one. final.geojson has this form, and a scene can continue from it.
 std::string to_geojson(const std::vector<simulation::FloeState>& floes, double time,
                        const std::optional<simulation::GeographicOrigin>& origin = {});
-/// Adds one floe to such a collection.
+/// Adds one floe to such a collection, with its ice, velocity and age as properties.
 void append_floe(GeojsonLayer& layer, const simulation::FloeState& floe);
 
 // The functions below read these lines. Each throws ReadError if a line is not valid.
 
+/// Returns the JSON value of a line.
 JsonValue json_of(std::string_view text);
+/// Returns the id of a floe; kNoFloe for null.
 simulation::FloeId floe_id(const JsonValue& value);
 
+/// Returns the data of a line of floes.ndjson, without its shape (read_shape).
 simulation::BirthRecord birth_of(const JsonValue& line);
+/// Returns a row of forces.csv. `columns` are the columns that its first line names (force_columns_in).
 simulation::HullSample sample_of(std::string_view line, const std::vector<const ForceColumn*>& columns,
                                  const simulation::Scene& scene);
-/// `run` already has its scene and its floes.
+// For these two, `run` must already have its scene and its floes, whose names and ids the rows contain.
 RunCrushed crushed_of(std::string_view line, const Run& run);
 RunContact contact_of(std::string_view line, const Run& run);
 simulation::PanelSample panel_of(std::string_view line, const simulation::Scene& scene);
-/// Checks that a line is a row of states.csv.
+/// Checks that a line is a row of states.csv; its values are not needed to read a run.
 void check_state(std::string_view line);
 
 }  // namespace polynya::io

@@ -16,7 +16,7 @@
 
 namespace polynya::io {
 
-/// A run that is in progress, with its folder.
+/// A run that is in progress, with its folder. start_run() and resume_run() make it, and run_to_end() steps it.
 struct ActiveRun {
   const LoadedScene& scene;  ///< must exist longer than this object
   simulation::Simulation simulation;
@@ -24,51 +24,67 @@ struct ActiveRun {
   double wall_time = 0;  ///< wall time of earlier parts of the run [s]
 };
 
-/// Returns the last tick of a run. The end of the scene is rounded up to a whole tick.
+/// Returns the number of ticks of a whole run. The end of the scene is rounded up to a whole tick, except for an excess
+/// of up to 1e-9 ticks, which is rounding.
 std::int64_t last_step_of(const simulation::StepSettings& time);
 
-/// Starts a run: prepares its folder before the first step. Fails if the folder cannot be used (RunWriter::create).
+/// Starts a run: makes the simulation at time 0 and prepares the folder. Fails if the folder cannot be used. With
+/// `overwrite`, an earlier run in the folder is replaced (claim_run_folder).
 Result<ActiveRun> start_run(const std::filesystem::path& folder, const LoadedScene& scene, bool overwrite = false);
 
-/// Continues a run from a checkpoint of its folder, which is read from `file`. Whatever the folder has beyond the
-/// checkpoint is cut off (RunWriter::resume). The run goes to the scene's end, which may differ from its former end.
+/// Continues a run from a checkpoint, which is read from `file`. `lock` locks the run folder. Whatever the folder
+/// has beyond the checkpoint is cut off (RunWriter::resume). The run goes to the end of `scene`, which may differ from
+/// the former end of the run, but not from anything else in its scene. Fails if the checkpoint is damaged, of another
+/// run, or after that end, and if the folder is damaged.
 Result<ActiveRun> resume_run(RunLock lock, const LoadedScene& scene, const std::filesystem::path& file);
 
-/// Returns the simulation at a checkpoint, after comparing its hash with the one in the checkpoint.
+/// Returns the simulation at a checkpoint. Fails if its state cannot be read, or if its number of steps or its hash is
+/// not the one in the checkpoint.
 Result<simulation::Simulation> simulation_at(const LoadedScene& scene, const Checkpoint& checkpoint);
 
-/// Returns a checkpoint of a run between two steps. The journal of the simulation must have been written.
+/// Returns a checkpoint of a run between two steps. `progress` is the state of the folder (RunWriter::sync),
+/// `wall_time` the wall time of the run so far [s]. The journal of the simulation must have been written to the folder
+/// before, because the checkpoint does not contain it.
 Checkpoint checkpoint_of(const simulation::Simulation& simulation, const LoadedScene& scene, RunProgress progress,
                          double wall_time);
 
-/// Looks for a failure after a step: numbers that are not finite, balances that do not close, a state that contradicts
-/// itself. Returns a message, or nothing if there is none.
+/// Checks the whole simulation after a step: for numbers that are not finite, balances of energy or momentum that do
+/// not close, and a state that contradicts itself. Returns a message for the first failure; nothing if there is none.
+/// It takes long compared with a step. A run without RunControl::check looks only for numbers that are not finite.
 std::optional<std::string> failure_after_step(const simulation::Simulation& simulation);
 
-/// Progress of a run.
+/// Progress of a run, for display.
 struct RunStatus {
   double time = 0;             ///< simulated time [s]
-  std::int64_t fractures = 0;  ///< bends, splits and rejected cuts
+  std::int64_t fractures = 0;  ///< number of bends and splits so far (fractures_of)
 };
 
-/// Writes the folder of a run between its steps. Both run_to_end() and Python's stepping use it.
+/// Writes the folder of a run between its steps. run_to_end(), Python and the browser use it: begin() once, then after
+/// each step record_step() and frame_if_due(), from time to time checkpoint(), and end() at last.
 class RunRecorder {
  public:
-  /// `wall_time` is that of earlier parts of the run [s].
+  /// `wall_time` is the wall time of the run before it was resumed [s]. All other arguments must exist longer than this
+  /// object.
   RunRecorder(simulation::Simulation& simulation, RunWriter& writer, const LoadedScene& scene, double wall_time = 0);
-  /// Call it after the constructor. Before the first step of a run it records the initial state and a first frame.
+  /// Records the initial state of a new run and its first frame. Call it once before the first step, and not for a run
+  /// that was resumed (RunWriter::has_begun). `journal` is the journal of a simulation of the scene before its first
+  /// step; it
+  /// contains the floes of the scene, and is emptied.
   void begin(simulation::Journal& journal);
+  /// Writes the journal of the last step and empties it. Call it after every step.
   void record_step() { writer_.record(simulation_.journal()); }
+  /// Writes a frame if one is due at this tick (RecordSettings::frames_interval). Call it after every step.
   void frame_if_due() {
     if (is_frame_due()) writer_.frame(simulation_);
   }
+  /// Writes a checkpoint of the run between two steps, after all files of the folder are on the disk.
   Result<> checkpoint() { return checkpoint(wall_time()); }
-  /// Writes a last checkpoint, and then a frame if none is due at the end. A run that is continued to a later end
-  /// starts from the checkpoint, and so does not contain that extra frame.
+  /// Writes a last checkpoint, and after it a last frame, unless one was due at the last tick and is written already. A
+  /// run that is continued to a later end starts from the checkpoint, and so does not contain that extra frame.
   Result<> end();
-  /// Returns the wall time of the run so far, with earlier parts [s].
+  /// Returns the wall time of the run so far, including the time before it was resumed [s].
   double wall_time() const { return wall_time_before_ + seconds_since(start_); }
-  /// Wall time since the last checkpoint [s].
+  /// Wall time since the last checkpoint, or since this object was made [s].
   double checkpoint_age() const { return seconds_since(last_checkpoint_); }
 
  private:
@@ -88,21 +104,27 @@ class RunRecorder {
 
 /// Settings of run_to_end().
 struct RunControl {
-  int threads = 1;                    ///< number of threads; results do not depend on it
-  double checkpoint_every = 0;        ///< simulated time between checkpoints [s]; 0: only by wall time
-  double checkpoint_every_wall = 60;  ///< wall time between checkpoints [s]; 0: only by simulated time
-  bool check = false;                 ///< check the whole state, and compute its sums again, after every step; slow
+  int threads = 1;              ///< number of threads; results do not depend on it
+  double checkpoint_every = 0;  ///< simulated time between checkpoints [s]; 0: only by wall time
+  /// Wall time between checkpoints [s]; 0: only by simulated time. A run that is killed loses at most about this much
+  /// work. It is looked at after every 16th step. A smaller value costs time, because each checkpoint waits for the
+  /// disk.
+  double checkpoint_every_wall = 60;
+  /// Call failure_after_step() after every step, and stop at the first failure; slow. Otherwise balances are only
+  /// checked at the end.
+  bool check = false;
   /// Write final.geojson even if the scene has more than kMostFloesInFinal floes (run_folder.hpp).
   bool final_geojson = false;
-  /// Called after every 16th step.
+  /// Called after every 16th step, except when a checkpoint is due then.
   std::function<void(const RunStatus&)> progress = {};
-  /// Called after every step. If it returns a reason, the run stops there, with a checkpoint from which it can be
-  /// resumed.
+  /// Called after every step. If it returns a reason, such as a signal of the user, the run stops there, with a
+  /// checkpoint from which it can be resumed.
   std::function<std::optional<std::string>()> stop = {};
 };
 
+/// How a run ended.
 enum class RunEnd {
-  kFinished,
+  kFinished,          ///< the end of the scene was reached
   kStopped,           ///< stopped by RunControl::stop
   kNumericalFailure,  ///< numbers that are not finite, or a fault found by RunControl::check
   kFolderFailure,     ///< a file of the folder could not be written
@@ -111,16 +133,17 @@ enum class RunEnd {
 /// How run_to_end() ended.
 struct RunResult {
   RunEnd end = RunEnd::kFinished;
-  std::string reason;  ///< reason for an end other than kFinished
+  std::string reason;  ///< reason for an end other than kFinished, in words
   RunSummary summary;  ///< the contents of summary.json
-  /// After a numerical failure, the state before the first faulty step is written to a dump. This is whether writing it
-  /// succeeded; empty if no dump was to be written.
+  /// Result of writing a dump, failure.bin: the state before the first faulty step. It is written after a numerical
+  /// failure, and after any other end if the balances of ice, energy or momentum do not close, unless the folder was
+  /// displaced (RunWriter::is_displaced). Empty if none was to be written.
   std::optional<Result<>> dump = {};
 };
 
 /// Steps a run to the end of its scene, or until something stops it, and writes its folder. docs/architecture.md shows
-/// an example. Throws std::bad_alloc if memory runs out; the folder is then like that of a killed run, and resume_run
-/// can continue it from the newest checkpoint.
+/// an example. Failures are in the result. Throws std::bad_alloc if memory runs out; the folder is then like that of a
+/// killed run, and resume_run can continue it from the newest checkpoint.
 RunResult run_to_end(ActiveRun& run, const RunControl& control = {});
 
 }  // namespace polynya::io

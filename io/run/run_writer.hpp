@@ -24,73 +24,90 @@ struct WrittenFile {
   std::uint32_t crc = 0;
 };
 
-/// State of a run folder at a checkpoint. The writer needs it to continue the folder.
+/// State of a run folder at a checkpoint. RunWriter::resume() needs it to cut the folder back to the checkpoint and to
+/// continue it.
 struct RunProgress {
   std::vector<WrittenFile> files;        ///< the files that grow, in the order of growing_files()
-  std::vector<RecordedMotion> recorded;  ///< last record of each floe, by floe id
-  std::vector<ShipPeaks> peaks;
+  std::vector<RecordedMotion> recorded;  ///< last record of each floe in frames.bin, by floe id
+  std::vector<ShipPeaks> peaks;          ///< largest loads so far, for each hull of the scene
 };
 
 /// Writes the folder of a run while it runs (docs/run-folder.md). The files on disk always have whole lines and whole
-/// frames, and summary.json has "finished": false from the start, so that a killed run leaves a usable folder. Disk
-/// errors are stored; the caller must look at status() regularly and stop.
+/// frames, and summary.json has "finished": false from the start, so that a killed run leaves a usable folder. record()
+/// and frame() only fill buffers, which are written from time to time. Disk errors are stored; the caller must look at
+/// status() regularly and stop.
 class RunWriter {
  public:
-  /// Prepares the folder (run_folder.hpp), and writes scene.json and a first summary.json. `scene` must exist longer
-  /// than this object.
+  /// Takes the folder for a new run (claim_run_folder; `overwrite` replaces an earlier run in it), and writes
+  /// scene.json, the headers of all growing files and a first summary.json. `scene` must exist longer than this object.
+  /// Fails if the folder cannot be used or a file cannot be written.
   static Result<RunWriter> create(const std::filesystem::path& folder, bool overwrite, const LoadedScene& scene);
 
-  /// Does the same for a folder that already has its scene.json. All other files are written from the start.
+  /// Does the same for a folder that is locked and already has its scene.json. All other files are written from the
+  /// start, and its checkpoints are removed.
   static Result<RunWriter> begin(RunLock lock, const LoadedScene& scene);
 
   /// Continues the folder of a run that was interrupted, or that ended before the scene's end. Whatever its files have
-  /// beyond the checkpoint is cut off, and newer checkpoints are removed. `file` is the file of the checkpoint.
+  /// beyond the checkpoint is cut off, and newer checkpoints are removed. `file` is the file from which `checkpoint`
+  /// was read, and `simulation` the simulation at the checkpoint. Fails, without changing the folder, if the checkpoint
+  /// is of another run, or if a growing file is shorter than at the checkpoint, damaged, or has columns of another
+  /// version.
   static Result<RunWriter> resume(RunLock lock, const LoadedScene& scene, const Checkpoint& checkpoint,
                                   const std::filesystem::path& file, const simulation::Simulation& simulation);
 
-  /// Writes the journal of the last step and empties it.
+  /// Records the journal of the last step (new floes, events, loads and peaks of contacts), and empties it. Call it
+  /// after every step and before frame().
   void record(simulation::Journal& journal);
 
-  /// Writes a frame: the present positions of all bodies.
+  /// Records a frame: the present positions and velocities of all bodies in frames.bin, their contacts and overlaps in
+  /// contacts.csv and crushed.csv, and a hash of the state in states.csv.
   void frame(const simulation::Simulation& simulation);
 
-  /// Returns true if the initial state has been written.
+  /// Returns true if the folder has a first frame, so that the initial state is recorded. A resumed run always has it.
   bool has_begun() const { return has_begun_; }
 
-  /// Writes the buffers if a second has passed or if they are large. It costs little if called after every step.
+  /// Writes the buffers to the files if a second has passed since the last time, or if they are large. It costs little
+  /// if called after every step.
   void flush_if_due();
 
-  /// Writes everything to the disk for a checkpoint, and returns the state of the folder.
+  /// Writes the buffers and waits until the disk has stored the growing files, as is necessary before a checkpoint.
+  /// Returns the state of the folder, which the checkpoint contains. Fails with status().
   Result<RunProgress> sync();
 
-  /// The first failure to write a file of the folder.
+  /// Returns a failure to write a file of the folder; success if there was none.
   Result<> status() const;
 
-  /// Returns the names of files that have become too long to be read back.
+  /// Returns the names of growing files that have become longer than `longest` [bytes], so that they cannot be read
+  /// back.
   std::vector<std::string> overlong(std::uint64_t longest = kLongestRunFile) const;
 
-  /// Largest loads recorded so far.
+  /// Largest loads recorded so far, for each hull of the scene, in the hull's frame.
   const std::vector<ShipPeaks>& peaks() const { return peaks_; }
 
-  /// Ends the run: writes the buffers, final.geojson if a simulation is given, and the last summary.json. The order
-  /// makes the folder valid at any time: first all files, then the summary with "finished": true, then all checkpoints
-  /// except that of the end are removed, and the checksums of all files are written.
+  /// Ends the run: writes the buffers, final.geojson if a simulation is given (null: it is not written), and the last
+  /// summary.json. For a finished run, the order makes the folder valid at any time: first all files, then the summary
+  /// with "finished": true, then all checkpoints but the last one are removed, and the checksums of all files are
+  /// written. For a run that was stopped, the summary is written before final.geojson, checkpoints stay, and there are
+  /// no checksums. If is_displaced(), nothing is written. Fails if a file cannot be written.
   Result<> finish(const RunSummary& summary, const simulation::Simulation* simulation);
 
-  /// Continues with a scene that differs only by its end (set_end()); it must exist longer than this object.
+  /// Continues with a scene that differs only by its end, and writes that end to the folder (set_end()). The scene must
+  /// exist longer than this object.
   Result<> end_with(const LoadedScene& scene) {
     scene_ = &scene;
     return set_end(folder(), scene);
   }
 
   const std::filesystem::path& folder() const { return lock_.folder(); }
-  /// Returns true if another program removed, moved or replaced the folder or one of its files.
+  /// Returns true if another program removed, moved or replaced the folder or one of its growing files, as noticed when
+  /// buffers were written. No more is written then, and status() is a failure.
   bool is_displaced() const { return is_displaced_; }
 
  private:
   RunWriter(const LoadedScene& scene, std::vector<OutputFile> files, RunLock lock);
-  /// Stores the properties of a floe that its events and frames need.
+  /// Stores the parent of a floe, which its events name, and its centroid, whose motion its frames record.
   void add_floe(simulation::FloeId floe, simulation::FloeId parent, geometry::Point centroid_in_body);
+  /// Returns a growing file by its index in growing_files().
   OutputFile& file(std::size_t which) { return files_[which]; }
   /// Appends the text that `write` makes as one record. A file never contains only a part of a record.
   template <class Write>
@@ -99,11 +116,13 @@ class RunWriter {
     write(record_);
     if (!record_.empty()) file(which).append(record_);
   }
+  /// Writes the buffers to the files in their order. After a failure the rest is dropped.
   void flush();
+  /// Writes the buffers and waits for the disk.
   Result<> sync_files();
   /// Writes checksums.txt. `known` has the checksums of the files that were just written; other files are read.
   Result<> write_checksums(Checksums known) const;
-  /// Stores a failure if the folder or one of its files no longer has its name.
+  /// Sets is_displaced_ and stores a failure if the folder or one of its growing files no longer has its name.
   void check_place();
 
   const LoadedScene* scene_;
@@ -111,11 +130,11 @@ class RunWriter {
   FrameEncoder frames_;
   std::vector<simulation::FloeId> parents_;         ///< by floe id
   std::vector<geometry::Point> centroids_in_body_;  ///< by floe id [m]
-  std::vector<const ForceColumn*> peak_columns_;
+  std::vector<const ForceColumn*> peak_columns_;    ///< columns of ShipPeaks::of_column
   std::vector<ShipPeaks> peaks_;
   RunLock lock_;
-  std::string record_;
-  Result<> status_;  ///< failure of a file that is written in one step
+  std::string record_;  ///< record that append() builds; a member so that its memory is used again
+  Result<> status_;     ///< failure to write a rejected cut, or displacement of the folder or a growing file
   std::chrono::steady_clock::time_point last_flush_;
   bool is_displaced_ = false;
   bool has_begun_ = false;

@@ -11,31 +11,49 @@
 
 namespace polynya::io {
 
-// Functions that make descriptions (record.hpp). A field has a key, a kind, a unit, a range, a meaning, and a path of
-// pointers to members that leads from the record to the value. The path may pass through an optional or a variant. When
-// the field is read, these are made to hold the class of the next member. When the field is written and they do not
-// hold it, the field is left out. The kind follows from the type of the value. A field whose value is optional may be
-// left out.
+// Functions that make descriptions (record.hpp), for example
+//
+//   const Description<RectangleInput> kRectangle{
+//       {required(member("corner_m", "m", coordinate(), "corner", &RectangleInput::corner)),
+//        member("angle_deg", "°", from(-360, 360), "rotation about the corner", &RectangleInput::angle)}};
+//
+// A field has a key, a kind, a unit, a range, a meaning, and a path of pointers to members that leads from the record
+// to the value. The path may pass through an optional or a variant. When the field is read, these are made to hold the
+// class of the next member. When the field is written and they do not hold it, the field is left out. The kind follows
+// from the type of the value. The presence follows too: a field whose value is optional may be left out, and any other
+// has the record's initial value as its default. The functions at the end of this file change presence and kind.
 
-inline constexpr double kLargestCoordinate = 1e6;  ///< [m]
+/// Largest coordinate in a scene [m]. Larger ones are refused, because they usually have another unit or coordinate
+/// system. A larger limit also costs precision: at 1e6 m a double is exact to 1e-10 m.
+inline constexpr double kLargestCoordinate = 1e6;
+/// Largest number of rows or columns of a lattice, and of entries of "floes". It equals the largest number of floes of
+/// a scene (kMostFloes), so that a scene may list each of its floes.
 inline constexpr double kLargestCount = 1e6;
-inline constexpr double kLargestSeed = 9007199254740991;  ///< 2^53 − 1
+/// Largest seed, and largest id of a floe: 2^53 − 1. JSON numbers are read as doubles, which represent all whole
+/// numbers only up to this one.
+inline constexpr double kLargestSeed = 9007199254740991;
 
+/// Numbers > low and ≤ high, in the unit of the key.
 inline Range above(double low, double high) {
   return {low, high, true, false};
 }
+/// Numbers ≥ low and ≤ high.
 inline Range from(double low, double high) {
   return {low, high, false, false};
 }
+/// Numbers ≥ low and < high.
 inline Range below(double low, double high) {
   return {low, high, false, true};
 }
+/// Coordinates up to kLargestCoordinate in size, for a field in metres.
 inline Range coordinate() {
   return from(-kLargestCoordinate, kLargestCoordinate);
 }
 
+// Functions that find the value of a field in its record.
 namespace place {
 
+/// Tells whether a type is an optional, and which type of value it holds.
 template <class T>
 struct Optional : std::false_type {
   using Value = T;
@@ -49,8 +67,9 @@ struct Optional<std::optional<T>> : std::true_type {
 template <class T, class Holder>
 using Held = std::conditional_t<std::is_const_v<Holder>, const T, T>;
 
-/// Returns the T in its holder, which is the T itself, a class derived from it, an optional or a variant. If the holder
-/// has no T, the result is null for a const holder, and otherwise a T is made.
+/// Returns a pointer to the T in its holder. The holder is the T itself, a class derived from T, an optional or a
+/// variant. If an optional or a variant does not hold a T, the result is null for a const holder; otherwise the holder
+/// is given a T with its initial value.
 template <class T, class Holder>
 Held<T, Holder>* held(Holder& holder) {
   if constexpr (std::is_convertible_v<Holder*, const T*>) {
@@ -66,7 +85,8 @@ Held<T, Holder>* held(Holder& holder) {
   }
 }
 
-/// Returns the T at the end of a path of pointers to members in the same way.
+/// Returns a pointer to the T at the end of a path of pointers to members, starting at `whole`. Each member on the path
+/// is looked for in its holder as by held(); the result is null if one is missing in a const record.
 template <class T, class Whole>
 Held<T, Whole>* at(Whole& whole) {
   return held<T>(whole);
@@ -77,6 +97,7 @@ Held<T, Whole>* at(Whole& whole, Member Class::*first, Rest... rest) {
   return found ? at<T>(found->*first, rest...) : nullptr;
 }
 
+/// Class and member type of a pointer to a member.
 template <class Pointer>
 struct Parts;
 template <class C, class M>
@@ -84,6 +105,7 @@ struct Parts<M C::*> {
   using Class = C;
   using Member = M;
 };
+/// Parts of the last pointer of a path.
 template <class... Path>
 using Last = Parts<std::remove_reference_t<decltype((std::declval<Path>(), ...))>>;
 /// The record in which a path begins: the given one, or else the class of the path's first pointer.
@@ -98,8 +120,10 @@ struct Begin<void, First, Rest...> {
 
 }  // namespace place
 
-// Conversions between values of JSON and of records, by type.
+// Conversions between values of JSON and of records, by type. They need values of the right kind; RecordReader checks
+// them before.
 
+/// Returns the kind of a field whose value has the type T. A type that is none of those listed is a vector or point.
 template <class T>
 constexpr FieldKind kind_of() {
   if (std::is_same_v<T, bool>) return FieldKind::kBoolean;
@@ -112,6 +136,7 @@ constexpr FieldKind kind_of() {
   return FieldKind::kVector;
 }
 
+/// Returns the value of a JSON value in SI units. `unit` is that of the key, and is converted for doubles only.
 template <class T>
 T value_of(std::string_view unit, const JsonValue& json) {
   if constexpr (std::is_same_v<T, bool>) {
@@ -131,6 +156,7 @@ T value_of(std::string_view unit, const JsonValue& json) {
   }
 }
 
+/// Returns the JSON value of a value in SI units, in the unit of the key.
 template <class T>
 JsonValue json_of(std::string_view unit, const T& value) {
   if constexpr (std::is_same_v<T, double>) {
@@ -151,7 +177,8 @@ JsonValue json_of(std::string_view unit, const T& value) {
 
 namespace place {
 
-/// Makes a field whose value is converted from JSON by `read` and to JSON by `write`.
+/// Completes a field by the functions that store its value in a record and return it. T is the type of the value at the
+/// end of `path`; `read` converts it from JSON and `write` to JSON. A field with a default takes it from a new Record.
 template <class Record, class T, class Read, class Write, class... Path>
 FieldOf<Record> leaf(Field field, Read read, Write write, Path... path) {
   field.set = [read, path...](void* record, const JsonValue& json) {
@@ -168,7 +195,10 @@ FieldOf<Record> leaf(Field field, Read read, Write write, Path... path) {
 
 }  // namespace place
 
-/// Makes a field with a number, vector, text and so on. `Given` is the record, if that is a variant.
+/// Makes a field with a number, a vector, a text, a list of numbers or rings. `unit` is the unit of its JSON value
+/// ("°", "kN"), from which to_si() converts; empty: none. `range` is in that unit. `meaning` is the text of
+/// docs/scene.md and of the schema. Give the template argument `Given` if the record is a variant: it is then the
+/// variant, and the path begins at one of its alternatives.
 template <class Given = void, class... Path>
 auto member(std::string_view key, std::string_view unit, Range range, std::string_view meaning, Path... path) {
   using Place = place::Optional<typename place::Last<Path...>::Member>;
@@ -180,7 +210,8 @@ auto member(std::string_view key, std::string_view unit, Range range, std::strin
       [unit](const T& value) { return json_of(unit, value); }, path...);
 }
 
-/// Makes a field with one of a few words, each of which has a value.
+/// Makes a field with one of a few words. `words` pairs each word of the JSON with the value that it stores. Every
+/// value that the record may have must be among them.
 template <class T, class... Path>
 auto choice(std::string_view key, std::string_view meaning, std::initializer_list<std::pair<std::string_view, T>> words,
             Path... path) {
@@ -198,7 +229,9 @@ auto choice(std::string_view key, std::string_view meaning, std::initializer_lis
       path...);
 }
 
-/// Makes a field with an object that has its own record. Without a path the object has some members of this record.
+/// Makes a field with an object, whose fields `description` describes. The path leads to its own record, of type Part.
+/// Without a path, the fields of the object are members of the present record, which is then a Part. An object in an
+/// optional may be left out. `Given` is that of member().
 template <class Given = void, class Part, class... Path>
 auto object(std::string_view key, const Description<Part>& description, std::string_view meaning, Path... path) {
   using Start = std::conditional_t<std::is_void_v<Given> && sizeof...(Path) == 0, Part, Given>;
@@ -214,7 +247,8 @@ auto object(std::string_view key, const Description<Part>& description, std::str
   return field;
 }
 
-/// Makes a field with a list of objects.
+/// Makes a field with a list of objects, which are stored in a std::vector<Item> at the end of the path. `length` is
+/// the allowed number of items. If the list is not given it is empty.
 template <class Item, class... Path>
 auto list(std::string_view key, Range length, std::string_view meaning, const Description<Item>& items, Path... path) {
   using Record = typename place::Begin<void, Path...>::Record;
@@ -237,7 +271,8 @@ auto list(std::string_view key, Range length, std::string_view meaning, const De
   return field;
 }
 
-/// Makes a field with a list whose items are not stored in the record; they are read one by one.
+/// Makes a field with a list of at most `longest` objects that the record does not store. RecordReader checks only that
+/// it is a list of allowed length; the caller reads the items one by one, because a scene may have a million floes.
 template <class Record, class Item>
 FieldOf<Record> list_of(std::string_view key, double longest, std::string_view meaning,
                         const Description<Item>& items) {
@@ -251,30 +286,33 @@ FieldOf<Record> list_of(std::string_view key, double longest, std::string_view m
 
 // Functions that change a property of a field.
 
+/// The field must be given.
 template <class Record>
 FieldOf<Record> required(FieldOf<Record> field) {
   field.presence = Presence::kRequired;
   return field;
 }
-/// If the field is not given, the reader computes its value from the whole scene.
+/// If the field is not given, the reader of scenes computes its value from the whole scene, as for the time step.
 template <class Record>
 FieldOf<Record> chosen(FieldOf<Record> field) {
   field.presence = Presence::kChosen;
   return field;
 }
-/// The field belongs to one of the alternatives of its object.
+/// The field belongs to one of the alternatives of its object (Object::alternatives), and may be given only with fields
+/// of the same alternative. An alternative exists if a field names it.
 template <class Record>
 FieldOf<Record> of(std::string_view alternative, FieldOf<Record> field) {
   field.alternative = alternative;
   return field;
 }
-/// The field has another kind than that of its type.
+/// The field has another kind than the one that follows from its type, for example kName for a text.
 template <class Record>
 FieldOf<Record> as(FieldKind kind, FieldOf<Record> field) {
   field.kind = kind;
   return field;
 }
-/// The field may be left out. Its default is a number that may not be given and that means "left out".
+/// The field may be left out. The record's initial value means "left out": the field is not written while the record
+/// has it. For a number only; its range should exclude that value, such as 0 with above(0, 1000).
 template <class Record>
 FieldOf<Record> left_out(FieldOf<Record> field) {
   field.presence = Presence::kLeftOut;

@@ -14,75 +14,102 @@
 
 namespace polynya::io {
 
-/// A floe of a file in the scene's plane.
+/// A floe of a floe file, moved to the scene's plane.
 struct FileFloe {
-  geometry::Polygon polygon;  ///< in house notation, and valid if it was imported [m]
-  FloeProperties properties;
-  std::uint32_t offset = 0;  ///< position of its coordinates in the file [bytes]
+  geometry::Polygon polygon;  ///< in house notation; valid if the entry has an "import", otherwise to be checked [m]
+  FloeProperties properties;  ///< own properties of the floe; those that it does not have are taken from the entry
+  std::uint32_t offset = 0;   ///< position of its coordinates in the file [bytes]
 };
 
-/// Ice properties of the floes of one entry of the scene's "floes". A property of a floe is taken from its feature in
-/// the file; if that has none, from the entry; if that has none, from the scene.
+/// Chooses the ice properties of the floes of one entry of the scene's "floes". Each property of a floe is taken from
+/// its feature in the floe file; if that has none, from the entry, which gives a number or a law from which a value is
+/// drawn for each floe; if that has none, from the scene.
 class GroupIce {
  public:
-  /// Reads the ice of an entry. The scene's own ice must be complete. Returns nothing if the entry is wrong, which is
-  /// reported; `path` and `item` are the path and the JSON of the entry.
+  /// Reads the "ice" of an entry, `group`. The scene's own ice must have been read, because it is the default mean of
+  /// laws. Returns nothing if a law is wrong, which is reported. `path` ("floes[2]") and `item` are the path and the
+  /// JSON of the entry, for messages.
   static std::optional<GroupIce> of(const simulation::Scene& scene, const FloeGroup& group, const JsonValue& item,
                                     const std::string& path, ProblemCollector& problems);
 
-  /// Draws the properties of the next floe. Returns their index in own_ice of the scene.
+  /// Chooses the ice of the next floe of the scene, and adds it to own_ice of the scene unless it equals the scene's
+  /// ice or the last one in own_ice. `given` are the properties of the floe's feature. Returns the index in own_ice, or
+  /// kSceneIce. Draws depend on the seeds, the number of the floe in the scene and the property, so that a change of
+  /// one law does not change the values that other laws give.
   std::int32_t add_to(simulation::Scene& scene, const FloeProperties& given);
 
-  /// Returns a summary of the values that were drawn from each law, in the order of the properties.
+  /// Returns a summary of the values that were drawn from each law, in the order of the properties. Constants, and laws
+  /// from which nothing was drawn, are left out. `group` is the index of the entry, for the reports.
   std::vector<IceReport> reports(std::size_t group) const;
 
-  /// Returns the properties that the entry and the feature give to the floe added last; nothing if they give none.
+  /// Returns the properties that the entry and the feature give to the floe added last, as numbers, for the resolved
+  /// scene; nothing if they give none. `given` are again the properties of the floe's feature.
   std::optional<IceInput> spelled_out(const simulation::Scene& scene, const FloeProperties& given) const;
 
  private:
   struct Law {
-    std::size_t property = 0;
-    fracture::ScatterLaw law;
-    std::vector<double> drawn;
+    std::size_t property = 0;   ///< index in floe_ice_properties()
+    fracture::ScatterLaw law;   ///< a number is a constant law
+    std::vector<double> drawn;  ///< values drawn so far, in SI units
   };
-  std::vector<Law> laws_;
-  std::uint64_t seed_ = 0;
+  std::vector<Law> laws_;   ///< one for each property that the entry gives
+  std::uint64_t seed_ = 0;  ///< seed of the scene + seed of the entry's ice
 };
 
-/// Makes the floes of the scene's list: lattices, fields, files and single floes.
+/// Makes the floes of the scene's "floes": lattices, random fields, channels of brash ice, floe files and single floes.
+/// Also makes the list of entries by which the resolved scene represents them.
 class FloeListReader {
  public:
-  /// All arguments must exist longer than this object. `files` returns the floe files that the scene names.
+  /// All arguments must exist longer than this object. `files` returns the floe files that the scene names. The scene
+  /// of `draft` must be complete except for its floes, because entries depend on its ice, water and hulls.
   FloeListReader(const FloeFiles& files, SceneDraft& draft, LoadedScene& loaded, ProblemCollector& problems)
       : files_(files), draft_(draft), loaded_(loaded), problems_(problems) {}
 
-  /// Adds the floes of one entry, whose JSON is `item`, to the draft, and reports on them to the loaded scene.
+  /// Adds the floes of one entry to the draft. `index` is its index in "floes", `group` the entry as it was read, and
+  /// `item` its JSON, for messages. Adds reports on fields, files and ice to the loaded scene. Problems of the entry
+  /// are reported.
   void add(std::size_t index, FloeGroup group, const JsonValue& item);
 
-  /// Entries of the resolved scene: complete, and with the floes of files in place of the files.
+  /// Entries of the resolved scene, so far: with all defaults, and with one entry for each floe of a file in place of
+  /// the file, so that the scene of a run does not depend on other files.
   JsonValue written{JsonValue::Array{}};
 
  private:
+  // One for each form of an entry.
   void add_floes(const LatticeInput& lattice);
   void add_floes(const RectangleInput& rectangle);
   void add_floes(const geometry::Polygon& polygon);
   void add_floes(FieldInput& field);
   void add_floes(ChannelInput& channel);  // channel_reader.cpp
   void add_floes(const FileInput& file);
-  /// Adds floes that the resolved scene represents by the same entry.
+  /// Adds floes that the resolved scene represents by the present entry itself, because it makes the same floes again.
+  /// `are_known_valid`: the outlines are valid by construction and need no check.
   void add_all(std::vector<geometry::Polygon> floes, bool are_known_valid);
-  /// Makes a random field, whose problems are reported at `report`. Nothing where it is wrong.
+  /// Makes a random field, and sets the defaults of `input`. Returns nothing if the field is wrong, which is reported
+  /// at `report`, or if the scene has other problems already, because a large field takes long.
   std::optional<simulation::FloeFieldOutcome> make_field(FieldInput& input, const ReportAt& report);
+  /// Sets the defaults of a channel, and reports keys that exclude each other. Returns true if there is no problem.
   bool check_channel(ChannelInput& channel, const ReportAt& report);
+  /// Adds the brash of a channel as pieces.
   void add_brash(ChannelInput& channel, const ReportAt& report);
+  /// Adds a frozen channel as one plate of fast ice.
   void add_consolidated(const ChannelInput& channel, const ReportAt& report);
+  /// Adds the strips of fast ice beside a channel.
   void add_fast_ice(const ChannelInput& channel);
+  /// Adds fast ice at rest with these outlines.
   void add_fast(std::vector<geometry::Ring> rings, const FloeProperties& ice);
+  /// Reports a floe file in metres of another plane than an earlier file. `offset` is that of its name in the scene.
   void check_places(const FileReport& came, std::uint32_t offset);
+  /// Returns the entry by which the resolved scene represents one floe of a file. `is_of_run`: a run wrote the file.
   FloeGroup spelled_out(FileFloe& floe, bool is_of_run) const;
+  /// Adds one floe to the draft, with the motion of `group`. `given` are its own ice properties; its other properties
+  /// must already be in `group`.
   void add_floe(const FloeGroup& group, geometry::Polygon polygon, const FloeProperties& given, Origin origin);
+  /// Reports what fast ice must not have, if the entry is fast ice.
   void check_fast_ice(bool is_fast);
+  /// Returns the index of the ship with this name under whose hull a floe is; −1, and a report, if there is none.
   int ship_over(const std::string& name, const Origin& origin);
+  /// Returns true if the scene may have `count` more floes; otherwise reports at `path` that there would be too many.
   bool has_room_for(std::size_t count, const std::string& path);
   /// Reports a problem of a member of the present entry, such as "lattice.size_m".
   void report(std::string_view key, std::string found, std::string allowed) const {
@@ -96,12 +123,13 @@ class FloeListReader {
   std::size_t index_ = 0;            ///< index of the present entry
   const JsonValue* item_ = nullptr;  ///< JSON of the present entry
   std::string path_;                 ///< path of the present entry: "floes[2]"
-  int member_ = 0;                   ///< number of the next floe of the present entry
-  FloeGroup group_;
-  GroupIce ice_;
+  int member_ = 0;                   ///< number of the next floe of the present entry, for channels
+  FloeGroup group_;                  ///< the present entry, with the defaults that have been set so far
+  GroupIce ice_;                     ///< ice of the present entry
 };
 
-/// Returns a rectangle along the axes, counter-clockwise from the corner with the smallest x and y.
+/// Returns a rectangle along the axes, counter-clockwise from `corner` [m], which has the smallest x and y. `size` is
+/// its length along x and along y [m].
 geometry::Polygon rectangle(geometry::Point corner, geometry::Vector size);
 
 /// Returns the same polygon in the notation of this program: rings are not closed by a repeated first point, the outer

@@ -12,19 +12,22 @@ namespace polynya::io {
 
 /// The estimate of a value that the ship's file does not state.
 struct Estimate {
-  std::string path;  ///< "propulsion.engine.open_water_speed_m_per_s"
-  double value = 0;  ///< in the unit of its key, rounded to three digits
-  std::string by;    ///< the formula and its source, in words
+  std::string path;  ///< path of the value in the ship: "propulsion.engine.open_water_speed_m_per_s"
+  double value = 0;  ///< estimate in the unit of its key, rounded to three digits, because it is not more exact
+  std::string by;    ///< formula of the estimate and its source, in words for people
 };
 
-/// Adds estimates to a ship of a scene whose preset is filled in: the block coefficient, the entrance angle, the
-/// diameter of the propellers if the thrust follows from it, and the open-water speed. Stated values are kept.
-/// `density` is that of the water [kg/m³].
+/// Adds estimates to `ship`, an entry of a scene's "ships" whose preset is filled in, and returns those that were
+/// added: the block coefficient, the entrance angle, the diameter of the propellers (if the power is stated but no
+/// bollard pull, which then follows from the diameter), and the open-water speed. Stated values are kept. A value stays
+/// missing if its formula needs others that are missing, does not cover the hull, or gives a result outside of the
+/// key's range. `density` is that of the water [kg/m³].
 std::vector<Estimate> add_estimates(JsonValue& ship, double density);
 
-/// Reports each value that `polynya performance` needs and that has to be stated, at its own path: one that is neither
-/// stated nor estimated, and would not be estimated if the other reported ones were stated. Also reports what prevents
-/// a run in level ice: a waterline point by point, a mooring, thrust without an engine.
+/// Reports each value of a ship that `polynya performance` needs and that its user has to state, at its own path. Call
+/// it after add_estimates(). A value is reported if it is neither stated nor estimated, and if it would not be
+/// estimated once the other reported values are stated. Also reports what prevents a run in level ice: a waterline
+/// point by point, a mooring, and thrust without an engine.
 void report_for_level_ice(const JsonValue& ship, const ReportAt& report_at);
 
 }  // namespace polynya::io

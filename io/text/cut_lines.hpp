@@ -6,22 +6,28 @@
 
 namespace polynya::io {
 
-/// A path along which ice is cut, from its first point to its last.
+/// A path of straight segments along which ice is cut, from its first point to its last [m].
 using CutPath = std::vector<geometry::Point>;
 
-/// The straight line through a point, from beyond a box to beyond it. Its reach is a power of two, so that floes about
-/// as far from the point share the very same line.
+/// Returns a straight line through a point that crosses a box completely and ends beyond it on both sides. `angle_deg`
+/// is its direction, counter-clockwise from the x axis [°]. Its half length is a power of two [m], at least twice as
+/// long as necessary. So floes that are about as far from the point get exactly the same line, and their cuts fit
+/// together.
 CutPath path_across(geometry::Point point, double angle_deg, const geometry::Box& box);
 
-/// The distance within which ends of paths are continued, if no other is given [m]: 64 units in the last place of the
-/// largest coordinate. So a path that was computed to end on another one does, and nothing else changes.
+/// Returns the distance within which ends of paths are continued if the user gives none [m]: 64 units in the last place
+/// of the largest coordinate of the floe's outer ring and the paths. It is just large enough that a path whose end was
+/// computed to lie on a boundary or on another path reaches it in spite of rounding. A larger distance would also close
+/// gaps that are intended.
 double default_snap(const geometry::Polygon& floe, const std::vector<CutPath>& paths);
 
-/// The paths, with ends continued that lie before the floe's boundary or before another path by at most `snap` [m],
-/// measured along the path: just beyond what they then meet. Other ends stay where they are.
+/// Returns the paths with their ends extended. If an end would meet the floe's boundary or another path when continued
+/// straight by at most `snap` [m], it is moved there and a little further (by default_snap()), so that the cut goes
+/// through. Other ends stay where they are. A larger `snap` extends more ends.
 std::vector<CutPath> continued(const std::vector<CutPath>& paths, const geometry::Polygon& floe, double snap);
 
-/// Whether an end of one of the paths lies in the box: then whether it separates may depend on the other paths.
+/// Returns true if an end of one of the paths lies in the box. Such a path does not cross the box completely, so
+/// whether it separates the ice there may depend on the other paths, and the paths must be cut together.
 bool ends_within(const std::vector<CutPath>& paths, const geometry::Box& box);
 
 }  // namespace polynya::io

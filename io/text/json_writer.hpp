@@ -19,27 +19,38 @@ namespace polynya::io {
 void append_number(std::string& text, double value);
 void append_number(std::string& text, std::int64_t value);
 
-/// Appends text as a JSON string with its quotes.
+/// Appends UTF-8 text as a JSON string with its quotes. Quotes, backslashes and control characters are escaped.
 void append_text(std::string& text, std::string_view value);
 
-/// Escapes &, < and > of a text for XML (SVG).
+/// Returns a text with &, < and > escaped for the contents of XML and SVG elements. Quotes are not escaped, so the text
+/// is not safe in an attribute.
 std::string escaped(std::string_view text);
 
-/// Bytes as base64 text (RFC 4648, with padding, no line breaks).
+/// Returns bytes as base64 text (RFC 4648, with padding, without line breaks).
 std::string to_base64(std::string_view bytes);
 
-/// Writes JSON into a string that the caller owns, so that the string's memory can be used again.
+/// Appends JSON to a string that the caller owns, so that the string's memory can be used again. It writes the commas,
+/// but does not check that brackets and keys fit together. Functions that write return the writer, so that calls can be
+/// chained.
 ///
 ///   JsonWriter json(line);
 ///   json.open('{').key("t_s").value(0.5).key("children").open('[').value(3).close(']').close('}');
 class JsonWriter {
  public:
+  /// All on one line (except after start_line()), or each item and member on a line of its own, indented by two blanks
+  /// per level.
   enum class Layout { kLine, kIndented };
+  /// `text` must exist longer than this object.
   explicit JsonWriter(std::string& text, Layout layout = Layout::kLine) : text_(text), layout_(layout) {}
 
+  /// Begins an object with '{' or a list with '['.
   JsonWriter& open(char bracket);
+  /// Ends it with '}' or ']'.
   JsonWriter& close(char bracket);
+  /// Writes the key of a member of the open object. Its value must follow.
   JsonWriter& key(std::string_view name);
+  // value() writes an item of the open list, or the value of the last key. Points and vectors are written as [x, y],
+  // and a ring as a list of its points, without closing it.
   JsonWriter& value(double number) {
     return put([=](std::string& text) { append_number(text, number); });
   }
@@ -64,6 +75,7 @@ class JsonWriter {
     return known ? value(*known) : null();
   }
   JsonWriter& null() { return value(nullptr); }
+  /// Writes a list of values.
   template <class Values>
   JsonWriter& list(const Values& values) {
     open('[');
@@ -77,7 +89,7 @@ class JsonWriter {
     write();
     return close('}');
   }
-  /// Writes a list of objects; `write(item)` writes the members of each.
+  /// Writes a list of objects; `write(item)` writes the members of each. `has_lines`: each object starts on a new line.
   template <class Items, class Write>
   JsonWriter& objects(const Items& items, Write write, bool has_lines = false) {
     open('[');
@@ -94,11 +106,11 @@ class JsonWriter {
   }
   /// Writes a polygon as a GeoJSON geometry.
   JsonWriter& polygon(const geometry::Polygon& polygon);
-  /// Writes a value that is JSON text already.
+  /// Writes a value that is JSON text already. It is not checked. In an object, the text may also be whole members.
   JsonWriter& json(std::string_view raw) {
     return put([=](std::string& text) { text += raw; });
   }
-  /// The next item or member starts on a new line.
+  /// Makes the next item or member start on a new line, without indent.
   void start_line() { starts_line_ = true; }
 
  private:
@@ -108,14 +120,16 @@ class JsonWriter {
     append(text_);
     return *this;
   }
+  /// Writes what must be before the next item or member: a comma, a line break, or nothing after a key.
   void separate();
+  /// Starts a new line and indents it.
   void break_line();
   std::string& text_;
   Layout layout_;
-  std::size_t depth_ = 0;
-  bool is_first_ = true;
-  bool follows_key_ = false;
-  bool starts_line_ = false;
+  std::size_t depth_ = 0;     ///< number of open brackets
+  bool is_first_ = true;      ///< true if the next item or member is the first in its brackets
+  bool follows_key_ = false;  ///< true if a key was written and its value not yet
+  bool starts_line_ = false;  ///< true if start_line() was called for the next item or member
 };
 
 /// Returns the text of one object and a newline; `write(json)` writes the members.
@@ -127,33 +141,38 @@ std::string json_object(Write write, JsonWriter::Layout layout = JsonWriter::Lay
   return text + '\n';
 }
 
-/// Returns a value as indented JSON. Lists of numbers, and lists of points, stay on one line. The same value always
-/// gives the same text.
+/// Returns a value as indented JSON with a final line break. Lists that contain only numbers, also in nested lists such
+/// as outlines, stay on one line. The same value always gives the same text, so that the text can be hashed.
 std::string to_json_text(const JsonValue& value);
 
-/// Writes a GeoJSON FeatureCollection of one instant with one feature per line. start() opens the properties of a
-/// feature; end_with() closes them and writes the geometry.
+/// Writes a GeoJSON FeatureCollection of one instant with one feature per line. For each feature, start() opens its
+/// properties, the caller writes them, and end_with() closes them and writes the geometry. finish() ends the
+/// collection. The object must not be moved or copied, because its writer refers to its text.
 class GeojsonLayer {
  public:
-  /// `time` [s] is that of the instant. `members` are further members of the collection as JSON; may be empty.
+  /// `time` [s] is that of the instant, and is written as "t_s". `members` are further members of the collection as
+  /// JSON text without braces (place_members); may be empty.
   explicit GeojsonLayer(double time, std::string_view members = {});
 
+  /// Begins a feature. Returns the writer for the members of its properties.
   JsonWriter& start();
-  void end_with(const geometry::Polygon& polygon);
-  void end_with(const std::vector<geometry::Polygon>& polygons);
-  void end_with(const geometry::Ring& line);
-  void end_with(geometry::Point point);
+  void end_with(const geometry::Polygon& polygon);                ///< ends it with a Polygon
+  void end_with(const std::vector<geometry::Polygon>& polygons);  ///< ends it with a MultiPolygon
+  void end_with(const geometry::Ring& line);                      ///< ends it with a LineString
+  void end_with(geometry::Point point);                           ///< ends it with a Point
   /// Returns the text written since the last take(). A caller that takes it often writes a long layer with little
   /// memory.
   std::string take() { return std::exchange(text_, {}); }
   std::size_t size() const { return text_.size(); }  ///< length of the text not yet taken [bytes]
+  /// Ends the collection, and returns the rest of the text, which take() has not returned.
   std::string finish();
 
  private:
+  /// Closes the properties and begins the geometry; its coordinates must follow.
   JsonWriter& open_geometry(const char* type);
 
-  std::string text_;
-  JsonWriter json_;
+  std::string text_;  ///< text not yet taken
+  JsonWriter json_;   ///< writes to text_
 };
 
 }  // namespace polynya::io

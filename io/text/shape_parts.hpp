@@ -12,10 +12,10 @@ namespace polynya::io {
 
 /// Consecutive vertices of a ring, taken from a ring of the parent or from the new vertices.
 struct ShapePart {
-  static constexpr std::int32_t kNew = -1;
+  static constexpr std::int32_t kNew = -1;  ///< value of `ring` for new vertices
   /// Ring of the parent, 0 for the outer one, then its holes; kNew: the vertices are in ShapeParts::vertices.
   std::int32_t ring = kNew;
-  std::uint32_t first = 0;  ///< index of the first vertex
+  std::uint32_t first = 0;  ///< index of the first vertex in that ring or in ShapeParts::vertices
   /// Number of vertices; in a ring of the parent they may continue from the last one to the first.
   std::uint32_t count = 0;
 };
@@ -24,37 +24,42 @@ struct ShapePart {
 /// broke, and new vertices. This keeps the file small, since a fracture adds only a few vertices to a boundary of any
 /// length.
 struct ShapeParts {
-  std::vector<ShapePart> parts;          ///< parts of the outer ring, then of each hole
+  std::vector<ShapePart> parts;          ///< parts of the outer ring, then of each hole, in the order of their vertices
   std::vector<std::uint32_t> ring_ends;  ///< index one past the last part of each ring
-  geometry::Ring vertices;               ///< new vertices [m]
+  geometry::Ring vertices;               ///< new vertices of all rings, in the floe's body frame [m]
 
   /// Returns true if any part refers to a parent.
   bool has_parent() const;
 };
 
-/// Returns the shape with all vertices stored as new ones.
+/// Returns the shape with all vertices stored as new ones, as for a floe without a parent.
 ShapeParts whole(const geometry::Polygon& shape);
 
-/// Returns the shape with references to the parent's vertices, each used at most once. Vertices are equal if their
-/// coordinates are. If that would take as many entries as the whole shape, the whole shape is returned.
+/// Returns the shape with references to vertices of the parent, each used at most once. Both shapes are in the same
+/// body frame. A vertex is taken from the parent if their coordinates are equal (+0 and −0 are). If references would
+/// take as many entries in the file as the whole shape, whole() is returned.
 ShapeParts parts_of(const geometry::Polygon& shape, const geometry::Polygon& parent);
 
-/// Return the number of vertices of each ring.
+// Return the number of vertices of each ring, the outer one first.
 std::vector<std::size_t> ring_sizes(const ShapeParts& shape);
 std::vector<std::size_t> ring_sizes(const geometry::Polygon& polygon);
 
-/// Throws ReadError if the parts cannot refer to a parent with rings of these sizes.
+/// Checks parts that were read from a file. Throws ReadError if they cannot refer to a parent with rings of these
+/// sizes, or if they use more vertices than it has, because a wrong file could then make shapes of any size.
 void check_parts(const ShapeParts& shape, const std::vector<std::size_t>& parent_ring_sizes);
 
-/// Returns the shape, with the same bits. `parent` is not used if all vertices are new. Needs parts that check_parts
-/// accepts.
+/// Returns the shape that was given to whole() or parts_of(), with exactly equal coordinates. `parent` is the parent's
+/// shape; it is not used if all vertices are new. Needs parts that check_parts() accepts.
 geometry::Polygon assembled(const ShapeParts& shape, const geometry::Polygon& parent);
 
-/// Writes the shape as members of a line of floes.ndjson.
+/// Writes the shape as members of a line of floes.ndjson: ring_m and holes_m if all vertices are new, otherwise
+/// ring_parts_m and hole_parts_m. The object of the line must be open.
 void append_shape(JsonWriter& json, const ShapeParts& shape);
 
-/// Read a point [x, y] of a JSON line, and the shape in a line of floes.ndjson. They throw ReadError if there is none.
+/// Returns a point [x, y] of a JSON line. Throws ReadError if the value is none.
 geometry::Point point_of(const JsonValue& value);
+/// Returns the shape in a line of floes.ndjson, which append_shape() wrote. Throws ReadError if there is
+/// none, or if a ring has fewer than 3 vertices. Whether it fits its parent is not checked (check_parts).
 ShapeParts read_shape(const JsonValue& line);
 
 }  // namespace polynya::io

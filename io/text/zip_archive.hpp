@@ -6,22 +6,25 @@
 
 namespace polynya::io {
 
-/// A ZIP archive in memory whose members are stored without compression, which every reader of ZIP files has. The same
-/// members give the same bytes: each has the date 1 January 1980, the earliest that the format has.
+/// A ZIP archive in memory, such as a co-simulation unit. Its members are stored without compression, a method that
+/// every reader of ZIP files supports. The same members in the same order give the same bytes, because each has the
+/// date 1 January 1980, the earliest that the format has, instead of the present one.
 class ZipArchive {
  public:
-  /// Adds a member. Its name has / between folders and does not begin with one.
+  /// Adds a member after the others. Its name, in UTF-8, has / between folders and does not begin with one. Sizes are
+  /// not checked: the caller must keep the archive below kLargest bytes and 65 536 members.
   void add(std::string_view name, std::string_view bytes);
   /// Returns the bytes of the archive with the members added so far.
   std::string bytes() const;
 
-  /// Largest archive that the format holds without its extension for large files [bytes].
+  /// Largest archive that the format holds without its extension for large files [bytes]: offsets and sizes have 32
+  /// bits. A larger archive would be unreadable.
   static constexpr std::uint64_t kLargest = 0xffffffff;
 
  private:
   std::string members_;    ///< headers and bytes of the members
   std::string directory_;  ///< one entry per member
-  /// Number of members.
+  /// Number of members. The format has 16 bits for it.
   std::uint16_t count_ = 0;
 };
 
