@@ -27,9 +27,10 @@ void print_problems(const std::string& name, const std::vector<io::Problem>& pro
 /// requested law. A scene without such fields prints nothing.
 void print_fields(const io::LoadedScene& scene);
 
-/// Checks before a run whether it can fit into the available memory (memory_estimate.hpp). If its floes do not fit even
-/// at rest, this is reported on stderr and false is returned; the caller then does not start the run. If they fit only
-/// while most of the ice rests, a note is printed on stderr and true is returned. `name` names the scene in messages.
+/// Checks before a run whether it can fit into the available memory (memory_estimate.hpp). If not even the memory
+/// before the first step is available, this is reported on stderr and false is returned; the caller then does not start
+/// the run. If the run fits only while most of the ice rests, a note is printed on stderr and true is returned. `name`
+/// names the scene in messages.
 bool may_fit(const simulation::Scene& scene, const std::string& name, const io::MemoryAvailable& available);
 
 /// Prints a note on stderr about the lengths of the files with all floes, if there are more than io::kMostFloesInFinal
