@@ -9,17 +9,18 @@ namespace polynya::analysis {
 /// Bending of one load by the database, and by the published formulas to which it can be compared.
 struct SlicePoint {
   fracture::BendingForecast database;
-  fracture::BendingCapacity nevel;  ///< Nevel's formula at the penetration of the database
-  fracture::BendingCapacity kashtelyan;
+  fracture::BendingCapacity nevel;       ///< Nevel's formula at the penetration at which the database breaks the ice
+  fracture::BendingCapacity kashtelyan;  ///< Kashtelyan's formula at the same penetration
 };
 
-/// Computes one load by all models.
+/// Computes one load by the database and by both formulas. Its own penetration is not used for the formulas.
 SlicePoint compare_models(const fracture::FsiDatabaseModel& model, const fracture::BendingLoad& load);
 
-/// Returns slices of a database through one load as JSON, which polynya.figures.database draws: force and cusp radius
-/// over speed, opening angle and thickness, each for the load itself and for neighbouring values of another of the
-/// three, and for comparison the formulas of Nevel and Kashtelyan. Keys have units. `description` describes the load in
-/// words.
+/// Returns slices of a database through one load as JSON, which polynya.figures.database draws. There are three
+/// figures: vertical breaking force [N] and cusp radius [m] over the approach speed, over the opening angle of the
+/// wedge and over the ice thickness. Each has a curve for the load itself, curves for a few other wedge angles (in the
+/// figure over the angle: other speeds), and for the load itself the formulas of Nevel and Kashtelyan. Each point says
+/// whether its model covers it. `title` names the database and `description` describes the load, both for people.
 std::string database_slices(const fracture::FsiDatabaseModel& model, const std::string& title,
                             const fracture::BendingLoad& load, const std::string& description);
 

@@ -13,7 +13,7 @@ namespace polynya::analysis {
 struct MisplacedFloe {
   simulation::FloeId floe = simulation::kNoFloe;
   std::string defect;   ///< reason why its vertices cannot be compared; empty if they can
-  double distance = 0;  ///< distance between the two places of its worst vertex [m]
+  double distance = 0;  ///< distance between the two places of the vertex that most exceeds its allowed distance [m]
   double allowed = 0;   ///< largest distance that the accuracy of frames allows that vertex [m]
 };
 
@@ -22,21 +22,24 @@ struct FinalPlaces {
   std::string not_compared;    ///< reason why there is nothing to compare; empty if the floes were compared
   std::string fault;           ///< reason why final.geojson cannot be read, with file and line; empty if it can
   std::optional<double> time;  ///< instant of final.geojson [s]; nullopt if the floes were not compared
-  std::size_t compared = 0;    ///< number of floes whose places were compared
+  std::size_t compared = 0;    ///< number of floes that final.geojson and the frames both have
   double farthest = 0;         ///< greatest distance between the two places of a vertex [m]
   simulation::FloeId farthest_floe = simulation::kNoFloe;
-  std::vector<MisplacedFloe> misplaced;
+  std::vector<MisplacedFloe> misplaced;  ///< also floes that only one of the files has, or final.geojson has twice
 
+  /// Returns false if the file cannot be read or any floe is misplaced. A run without a comparison is sound.
   bool is_sound() const { return fault.empty() && misplaced.empty(); }
 };
 
-/// Compares every vertex of final.geojson with the floe's polygon on record, placed by its motion in frames.bin. Both
-/// must have the same floating floes. The two places of a vertex may differ by what a frame may be wrong by: 1 mm along
-/// each axis, and 1e-5 rad times the distance of the vertex from the floe's centre of mass. A run without
-/// final.geojson, or without a frame at its instant, is not compared and is sound.
+/// Compares every vertex of final.geojson with the floe's polygon on record, placed by its motion in frames.bin.
+/// final.geojson must have exactly the floes that float at its instant. The two places of a vertex may differ by the
+/// error that a frame may have: 1 mm along each axis, and 1e-5 rad times the distance of the vertex from the floe's
+/// centre of mass. Further allowances are for rounding only. A run without final.geojson, or without a frame at its
+/// instant, is not compared and is sound.
 FinalPlaces compare_final_places(const io::Run& run);
 
-/// Adds the lines of `polynya inspect --check`, or the members of its JSON.
+/// Add the comparison to the output of `polynya inspect --check`: lines of its text (at most 20 misplaced floes are
+/// listed), or the member `final_places` of its JSON (all are listed).
 void add_text(std::string& text, const FinalPlaces& places);
 void write_members(io::JsonWriter& json, const FinalPlaces& places);
 

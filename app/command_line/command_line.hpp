@@ -19,15 +19,17 @@ class App;
 
 namespace polynya::app {
 
-/// Check of a word of the command line. problem_of returns a message, or "" if the word is right.
+/// Check of a word of the command line.
 struct WordCheck {
+  /// Returns the message that the user gets, or "" if the word is right. No function: every word is accepted.
   std::function<std::string(std::string&)> problem_of;
   std::string description;  ///< allowed words, shown in the help; may be empty
 };
 
-/// Accepts numbers from `least` to `most`.
+/// Accepts numbers from `least` to `most`, both included.
 WordCheck between(double least, double most);
-/// Accepts whole numbers, for counts and seeds. The message is "1.5 is not a whole number from 1 to 1024".
+/// Accepts whole numbers from `least` to `most`, both included, for counts and seeds. The message is like "1.5 is not a
+/// whole number from 1 to 1024".
 WordCheck whole(std::uint64_t least, std::uint64_t most);
 /// Accepts all numbers except infinity and "nan".
 WordCheck finite();
@@ -35,19 +37,24 @@ WordCheck finite();
 /// is not set.
 WordCheck not_empty();
 
-/// Properties of an option in addition to its name, value and meaning.
+/// Properties of an option in addition to its name, value and meaning. A command line that violates one of them is
+/// rejected with kUsage.
 struct OptionTraits {
-  bool is_required = false;
-  bool shows_default = false;
-  std::string group = {};  ///< heading in the help; empty: "Options"
-  /// Options that may not be given together with it; they must have been added before.
+  bool is_required = false;    ///< true: the command needs the option
+  bool shows_default = false;  ///< true: the help shows the value that the variable had when the option was added
+  std::string group = {};      ///< heading in the help; empty: "Options"
+  /// Options that may not be given together with it, such as "--json"; they must have been added before.
   std::vector<std::string> excludes = {};
-  std::string needs = {};      ///< option that must be given with it, added before
-  char delimiter = 0;          ///< character between the items of a list; 0: blanks
-  int least = 1, most = 1;     ///< allowed number of items of a list; 1, 1: any number
-  bool one_each_time = false;  ///< true: each occurrence of the option takes one item, so that a positional may follow
+  std::string needs = {};   ///< option that must be given with it, added before; empty: none
+  char delimiter = 0;       ///< character between the items of a list in one word; 0: each item is a word
+  int least = 1, most = 1;  ///< allowed number of items of a list; with most = 1 `least` is ignored: any number
+  /// For a list. True: each occurrence of the option takes one item, so that a positional may follow. False: it takes
+  /// all words up to the next option.
+  bool one_each_time = false;
 };
 
+/// Variable of the caller in which an option's value is stored. Its type decides which words are accepted. An optional
+/// stays empty without the option; a vector collects the items of a list.
 using OptionValue =
     std::variant<std::string*, double*, int*, std::int64_t*, std::uint64_t*, std::optional<std::string>*,
                  std::optional<int>*, std::optional<double>*, std::optional<std::int64_t>*,
@@ -59,20 +66,23 @@ class CommandLine {
  public:
   explicit CommandLine(CLI::App* app) : app_(app) {}
 
-  /// Adds a command. Its help begins with the examples in `footer`. A command without a meaning is not listed in the
-  /// help.
+  /// Adds a command. `meaning` is its line in the help; a command with an empty one works but is not listed. `footer`
+  /// is text at the end of the command's help; if its first paragraph begins with "Examples:", that paragraph is shown
+  /// before the usage.
   CommandLine add_command(const std::string& name, const std::string& meaning, const std::string& footer);
-  /// Makes one of the command's own commands mandatory.
+  /// Makes one of the command's own commands mandatory, such as `build` after `polynya database`.
   void require_command();
-  /// Leaves all words after the command unparsed, including --help, because another program reads them (`remaining`).
+  /// Leaves all words after the command unparsed, including --help, because another program reads them.
   void hand_on_arguments();
-  std::vector<std::string> remaining() const;
-  bool is_chosen() const;
+  std::vector<std::string> remaining() const;  ///< these words, after parsing
+  bool is_chosen() const;                      ///< true if the parsed command line contains this command
 
-  /// Adds an option, or a positional if the name has no dashes.
+  /// Adds an option, such as "-o,--out", or a positional if the name has no dashes. `type` stands for the value in the
+  /// help ("DIR"), and `meaning` explains the option there.
   void option(const char* name, OptionValue value, const char* type, const char* meaning, WordCheck check = {},
               const OptionTraits& traits = {});
-  /// Adds an option that takes one of these names, which the help lists.
+  /// Adds an option that takes one of these names, which the help lists. The value that belongs to the name is stored
+  /// in `value`, which keeps its initial value without the option.
   template <class Choice, class Value>
   void choice(const char* name, Value& value, const char* meaning,
               std::vector<std::pair<std::string_view, Choice>> choices, const OptionTraits& traits = {}) {
@@ -82,6 +92,7 @@ class CommandLine {
     add_choice(name, std::move(names), meaning, traits,
                [&value, choices = std::move(choices)](std::size_t which) { value = choices[which].second; });
   }
+  /// Adds an option without a value, which sets the variable to true.
   void flag(const char* name, bool& value, const std::string& meaning, const OptionTraits& traits = {});
 
  private:
@@ -93,14 +104,14 @@ class CommandLine {
 
 // Options that several commands have.
 
-/// Add the positional SCENE, or RUN.
+/// Add the mandatory positional SCENE (a file, or "-" for stdin), or RUN (a run folder).
 void add_scene(CommandLine& command, std::string& scene);
 void add_run_folder(CommandLine& command, std::string& folder);
-/// Adds --set, for every command that reads a scene to run or check it.
+/// Adds --set KEY=VALUE, which replaces values of a scene, for every command that reads a scene to run or check it.
 void add_set(CommandLine& command, std::vector<std::string>& words);
-/// Returns the assignments of the words of --set, which have been checked.
+/// Returns the assignments of the words of --set. Parsing has checked them; wrong words would be left out.
 std::vector<io::Assignment> assignments_of(const std::vector<std::string>& words);
-/// Adds --progress, for every long command.
+/// Adds --progress, for every long command. It does not offer kLines, which is only the fallback without a terminal.
 void add_progress(CommandLine& command, ProgressKind& kind);
 
 /// A command and the function that carries it out, which returns an ExitCode. Data is written to stdout, messages to
@@ -111,7 +122,7 @@ struct Command {
 };
 using Commands = std::vector<Command>;
 
-/// Runs the command that the words chose.
+/// Runs the command that the parsed words chose and returns its exit code; 0 if none was chosen.
 int run_chosen(const Commands& commands);
 
 // Each function adds a command with its help, options and action, all in one file (docs/architecture.md, "To add").
@@ -134,21 +145,23 @@ Command add_view(CommandLine& app);
 /// Adds the commands that are written in Python (python/polynya/command.py).
 void add_python_commands(CommandLine& app, Commands& commands);
 
-/// Replaces this process by Python, which runs a command of the package with its name and its words. Returns, with an
-/// ExitCode, only if that fails.
+/// Replaces this process by Python, which runs a command of the package polynya; the first word is the command's name.
+/// POLYNYA_PYTHON chooses the interpreter; otherwise /usr/bin/python3 is preferred. Returns only if it fails, with a
+/// message on stderr and kInputOutput.
 int become_python(const std::vector<std::string>& words);
 
 /// Commit of the source from which the program is built; empty outside of git (cmake/PolynyaCommit.cmake).
 extern const std::string_view kCommit;
 
-/// Texts of the help and the version of the whole program.
+/// Texts of `polynya --help` and `polynya --version`.
 struct ProgramText {
-  std::string examples;
-  std::string footer;
-  std::string version;
+  std::string examples;  ///< beginning of the help
+  std::string footer;    ///< end of the help
+  std::string version;   ///< output of --version
 };
 
-/// Parses the words and runs the chosen command, or prints help, version or an error. Returns the exit code.
+/// Parses the words and runs the chosen command, or prints help or version on stdout, or an error on stderr. Returns
+/// the exit code: that of the command, 0 after help or version, or kUsage. `count` and `words` are those of main().
 int run_command_line(const ProgramText& text, const std::function<Commands(CommandLine&)>& add_commands, int count,
                      const char* const* words);
 

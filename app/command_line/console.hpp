@@ -21,18 +21,18 @@
 
 namespace polynya::app {
 
-/// Exit codes of `polynya`.
+/// Exit codes of `polynya`, which scripts and tests rely on. The three causes of code 4 differ only in their messages.
 enum ExitCode {
-  kDone = 0,
+  kDone = 0,              ///< everything was done
   kUsage = 2,             ///< the command line is wrong
   kSceneInvalid = 3,      ///< the scene is wrong; nothing was written
   kNumericalFailure = 4,  ///< numbers became infinite or not a number; the folder has the run up to then
-  kOutOfMemory = 4,       ///< memory ran out; a run folder is like that of a killed run
-  kRefused = 4,           ///< geometry was refused or is faulty; everything else was done
+  kOutOfMemory = 4,       ///< memory ran out or would not suffice; a run that had begun is left like a killed one
+  kRefused = 4,           ///< a shape was refused, or a check found a fault; everything else was done
   kInputOutput = 5,       ///< a file, stdout or stderr could not be read or written
-  kDefect = 70,           ///< an error of Polynya itself; a command in Python writes its traceback to a file
-  kStopped = 75,          ///< stopped by a signal; the folder has a checkpoint from which the run can be resumed
-  kClosedPipe = 141,      ///< the reader of stdout or stderr has ended; shells report SIGPIPE by this code
+  kDefect = 70,       ///< an error in Polynya itself, used by the commands in Python, which write a traceback to a file
+  kStopped = 75,      ///< stopped by a signal; the folder has a checkpoint from which the run can be resumed
+  kClosedPipe = 141,  ///< the reader of stdout or stderr has ended; shells report SIGPIPE by this code
 };
 
 // All text of the program is written by the functions below. If a text could not be written, the exit code is never 0.
@@ -44,7 +44,7 @@ enum ExitCode {
 /// an error instead of a signal.
 void open_streams();
 
-/// Writes to stdout.
+/// Writes to stdout. A failure is stored for close_streams().
 void write_out(std::string_view text);
 template <typename... Args>
 void print_out(fmt::format_string<Args...> format, Args&&... args) {
@@ -61,10 +61,10 @@ void print_err(fmt::format_string<Args...> format, Args&&... args) {
   write_err(fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// Writes problems, or warnings and hints of a scene, to stderr, one per line.
+/// Writes problems to stderr, one per line: errors, warnings and hints of a scene.
 void print_lines(const std::vector<io::Problem>& problems);
 
-using io::counted;
+using io::counted;  // "1 floe", "2 floes"
 
 /// Writes "polynya: " and a message to stderr; returns the code.
 ExitCode fail(ExitCode code, std::string_view message);
@@ -76,34 +76,36 @@ inline tl::unexpected<ExitCode> failure(ExitCode code, std::string_view message)
   return tl::unexpected(fail(code, message));
 }
 
-/// Shows progress on stderr. An error in writing it is ignored.
+/// Writes progress to stderr at once. An error is ignored and does not change the exit code.
 void show_progress(std::string_view text);
 
-/// Writes the buffers and reports on stderr what could not be written. Returns the exit code: `code` if it is not 0 or
-/// if everything was written; kClosedPipe, without a message, if only a closed pipe prevented writing; otherwise
-/// kInputOutput.
+/// Writes the buffers, closes stdout and reports on stderr if not all text could be written to stdout. Call it last.
+/// Returns the exit code of the program: `code` if it is not 0 or if everything was written; kClosedPipe, without a
+/// message, if only a closed pipe prevented writing; otherwise kInputOutput.
 int close_streams(int code);
 
-/// Makes SIGINT, SIGTERM and SIGHUP only ask to stop from now on; a second signal ends the program at once. Writing
-/// beyond a size limit or to a closed pipe is an error, not a signal.
+/// Makes SIGINT, SIGTERM and SIGHUP only ask to stop from now on, so that a run can write a checkpoint first. A second
+/// signal of the same kind ends the program at once. A signal that the parent process ignores, as under nohup, stays
+/// ignored.
 void watch_signals();
 
-/// Returns the signal that asked to stop, or 0.
+/// Returns the number of the last signal that asked to stop, or 0. Long commands ask for it between their steps.
 int stop_signal();
 
 /// How progress is shown on stderr.
 enum class ProgressKind {
-  kAuto,  ///< a bar on a terminal, otherwise an occasional line
-  kBar,   ///< a bar; kLines if stderr is not a terminal
-  kLines,
-  kJson,  ///< one JSON object per second
-  kNone,
+  kAuto,   ///< the same as kBar
+  kBar,    ///< a bar that is renewed ten times a second; kLines if stderr is not a terminal, or a dumb one
+  kLines,  ///< a line every ten seconds
+  kJson,   ///< a line with a JSON object every second
+  kNone,   ///< nothing
 };
 
 /// A report of progress in all its forms.
 struct ProgressReport {
-  double part = 0;  ///< completed fraction, 0..1; negative if it is not known
+  double part = 0;  ///< completed fraction, 0..1; negative if it is not known: then there is no bar, only the text
   /// Text of a line, or of the field after the bar: ASCII, fields separated by two blanks, important fields first.
+  /// Fields at the end that do not fit into the width of the terminal are left out.
   std::string words;
   std::string json;  ///< one object without a line break
 };
@@ -113,14 +115,16 @@ class ProgressOutput {
  public:
   explicit ProgressOutput(ProgressKind kind);
 
-  /// Returns true if a report is due. It costs little to call often.
+  /// Returns true if pause() has passed since it last returned true, or since construction. It costs little to call
+  /// often.
   bool is_due();
+  /// Writes a report now, whether it is due or not. Ask is_due() first.
   void show(const ProgressReport& report) const;
-  /// Removes the bar from the terminal.
+  /// Removes the bar from the terminal; other kinds do nothing.
   void clear() const;
-  double pause() const;  ///< time between two reports [s]
-  ProgressKind kind() const { return kind_; }
-  /// Shows the last report: it completes a bar, or is another object.
+  double pause() const;  ///< wall time between two reports [s]: 0.1 for a bar, 10 for lines, 1 for JSON
+  ProgressKind kind() const { return kind_; }  ///< the kind that is shown: never kAuto
+  /// Shows the last report: it completes a bar and ends its line, or is another JSON object. Lines do not show it.
   void finish(const ProgressReport& report) const;
 
   double wall_time() const;  ///< time since construction [s]
@@ -131,12 +135,12 @@ class ProgressOutput {
   double last_shown_ = 0;  ///< wall time [s]
 };
 
-/// Shows on stderr, from its own thread, that work is in progress: from its third second on (lines: from the tenth),
-/// with the completed fraction if it is known. A bar is removed when the work ends, so that messages start on a new
-/// line.
+/// Shows on stderr, from its own thread, that work is in progress, with its wall time and the completed fraction if it
+/// is known. Nothing is shown for the first 2 s (lines: 10 s). The destructor ends it and removes a bar, so that
+/// messages start on a new line.
 class WorkProgress {
  public:
-  /// `work` describes the work: "reading the run".
+  /// `work` describes the work: "reading the run". It must not need escaping in JSON.
   WorkProgress(ProgressKind kind, std::string work);
   WorkProgress(const WorkProgress&) = delete;
   WorkProgress& operator=(const WorkProgress&) = delete;
@@ -156,7 +160,8 @@ class WorkProgress {
   std::jthread thread_;  ///< must be the last member, because the thread uses the others
 };
 
-/// Does work and shows its progress. Returns the result of `work`.
+/// Does work and shows its progress by WorkProgress. Returns the result of `work`, which may take the WorkProgress& to
+/// set the completed fraction.
 template <class Work>
 auto with_progress(ProgressKind kind, std::string name, Work work) {
   WorkProgress progress(kind, std::move(name));
@@ -166,7 +171,7 @@ auto with_progress(ProgressKind kind, std::string name, Work work) {
     return work();
 }
 
-/// Returns a duration [s] as "1:05" or "2:03:04".
+/// Returns a duration [s], rounded to seconds, as "1:05", or from an hour on as "2:03:04".
 std::string clock_time(double seconds);
 
 /// Returns the contents of a file, or of stdin if its name is "-". Fails with a message if it cannot be read or is
@@ -176,21 +181,23 @@ tl::expected<std::string, std::string> read_input(const std::string& file, std::
 /// Returns the name of an input for messages: the file's name, or "stdin".
 std::string input_name(const std::string& file);
 
-/// Reads a run folder with progress on stderr (io/run/run_reader.hpp).
+/// Reads a run folder with progress on stderr. Fails as io::read_run() does (io/run/run_reader.hpp).
 io::Result<io::Run> read_run(const std::string& folder, ProgressKind progress);
 
 /// Returns true if the name means the program's stdout: "-", "/dev/stdout", or the file to which stdout is written.
+/// Callers then write their words about it to stderr, so that they are not mixed with the data.
 bool is_stdout(const std::string& file);
 
 /// Writes to a name that a user gave: a file, a pipe, a device, or the program's own stdout or stderr, whose failures
 /// close_streams() reports.
 io::Result<> write_output(const std::string& file, const std::string& text);
 
-/// Creates a folder that a user named, with the folders above it.
+/// Creates a folder that a user named, with the folders above it. It is no error if it exists.
 io::Result<> make_folder(const std::filesystem::path& folder);
 
-/// Writes a file that a command makes from a run. If `out` names a folder, the file is written there, and the folder is
-/// created if necessary. If `out` is empty, it is written to the run's folder, in which links are not followed.
+/// Writes a file `name` that a command makes from the run in the folder `run`. It is written into the folder `out`,
+/// which is created if necessary, by write_output(); if `out` is empty, into the run's folder. There a symbolic link of
+/// that name is replaced, not followed, because a run folder may come from somebody else.
 io::Result<> write_product(const std::string& out, const std::string& run, std::string_view name,
                            const std::string& text);
 

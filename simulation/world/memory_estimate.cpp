@@ -13,7 +13,7 @@ namespace {
 using geometry::Polygon;
 using geometry::Ring;
 
-/// Returns the size of a heap block for a number of bytes [bytes].
+/// Returns the size of a heap block for a number of bytes [bytes]: with the allocator's header, and 0 for none.
 double block(double bytes) {
   constexpr double kHeader = 8;  // header that glibc's allocator adds to a block [bytes]
   return bytes > 0 ? bytes + kHeader : 0;
@@ -32,14 +32,16 @@ double heap_of(const Polygon& polygon) {
          block(sizeof(Ring) * static_cast<double>(polygon.holes.size()));
 }
 
-/// Memory of one body in the columns of dynamics::Bodies [bytes]; the last two point to its boundary and drag shape.
-/// Whoever adds a column there changes this sum too; no assertion compares them.
+/// Memory of one body in the columns of dynamics::Bodies [bytes]: 16 numbers, 2 vectors, the drag span, 3 flags of one
+/// byte, and the pointers to its boundary and its drag shape. If a column is added there, this sum must be changed too;
+/// no assertion compares them.
 constexpr double kColumns = 16 * sizeof(double) + 2 * sizeof(geometry::Vector) + sizeof(dynamics::DragSpan) + 3 +
                             2 * sizeof(std::shared_ptr<geometry::Boundary>);
 
 /// Returns the memory of a floe at rest [bytes]: the floe's specification in the caller's scene and in the world's
-/// copy, the floe itself, its birth in the journal, its body and its outline. Three polygons count: those of the
-/// caller's specification, the birth and the floe, which takes the polygon of the world's copy.
+/// copy, the floe itself, its birth in the journal, its body and its outline for the contact search. Three polygons
+/// count: those of the caller's specification, of the birth, and of the floe, which takes over the polygon of the
+/// world's copy. The outline has its points and two lists of one 32-bit integer for each vertex.
 double at_rest(const FloeSpec& floe) {
   const Polygon& polygon = floe.polygon_in_world;
   const double vertices = vertices_of(polygon);
@@ -52,7 +54,7 @@ double at_rest(const FloeSpec& floe) {
 /// Returns the additional memory of a floe that moves [bytes]: its drag shape and its pairs with neighbours. Each pair
 /// stores edges that are near each other, and belongs half to either floe.
 double moving() {
-  constexpr double kPairs = 4;                  // number of pairs per floe: half of eight neighbours
+  constexpr double kPairs = 4;                  // pairs per floe: half of eight neighbours, an assumption
   constexpr double kNearEdges = 4;              // number of near edges of a pair that touches
   constexpr double kEnds = 8 * sizeof(double);  // coordinates of the ends of two near edges [bytes]
   const double near =
@@ -60,11 +62,14 @@ double moving() {
   return block(sizeof(dynamics::DragShape)) + kPairs * (sizeof(dynamics::Pair) + near);
 }
 
-/// Memory of the covers of boundaries that are kept. It counts one piece for each circle radius of a boundary, as the
-/// contact search does when it decides which covers to keep (pieces_of in geometry/contact/boundary.hpp). Covers of
-/// edges longer than 128 radii have fewer pieces unless they have contact circles, so the estimate is then too large.
-/// Two floes with at most kFewEdges edges together need no cover. The estimate therefore leaves out floes with at most
-/// half of that, also where they lie beside a plate with many edges and get a cover.
+/// Memory of the covers of boundaries, which the contact search keeps from one step to the next. A cover divides a
+/// boundary into pieces; their number is estimated as one for each circle radius of the perimeter, as the contact
+/// search does when it decides which covers to keep (pieces_of in geometry/contact/boundary.hpp). Covers of edges
+/// longer than 128 radii have fewer pieces unless they have contact circles, so the estimate is then too large. Two
+/// floes with at most kFewEdges edges together need no cover unless the scene uses contact circles. The estimate
+/// therefore leaves out floes with at most half of that, also where they lie beside a plate with many edges and get a
+/// cover. Covers with many pieces, and all covers of scenes with contact circles, are always kept; others up to
+/// ContactRule::most_kept_pieces in total.
 class KeptCovers {
  public:
   explicit KeptCovers(const ContactSettings& contact)
@@ -77,7 +82,7 @@ class KeptCovers {
   }
 
   double bytes() const {
-    constexpr double kNodes = 0.8;  // approximate number of nodes of a cover's tree per piece
+    constexpr double kNodes = 0.8;  // approximate number of nodes of a cover's search tree per piece
     constexpr double kPiece =
         sizeof(geometry::PieceEdges) + sizeof(geometry::BoundingCircle) + kNodes * sizeof(geometry::CircleNode);
     const double room = std::max(0.0, dynamics::ContactRule{}.most_kept_pieces - always_);
@@ -91,13 +96,16 @@ class KeptCovers {
   double always_ = 0, others_ = 0;
 };
 
-/// Factor for further pairs, contacts and unused heap memory, in MemoryEstimate::all_moving only: at_start is a lower
-/// bound and decides whether a run is refused [-]. It was measured with drifting lattices of floes
-/// (tests/app/run_command_test.cpp). Larger values overestimate the memory of a run; smaller ones underestimate it.
+/// Factor for further pairs, contacts and unused heap memory in MemoryEstimate::all_moving [-], measured with drifting
+/// lattices of floes (tests/app/run_command_test.cpp). With a larger value, a note warns of runs that would fit; with a
+/// smaller one, some runs that do not fit begin without a note. MemoryEstimate::at_start has no such factor: it must be
+/// a lower bound, because a run that exceeds it is refused.
 constexpr double kOverheadFactor = 1.2;
 
 }  // namespace
 
+// In at_start, only floes that move at the start have a drag shape. Floes that wind sets in motion later are left out,
+// so at_start remains a lower bound. Covers and pairs count only in all_moving.
 MemoryEstimate estimate_memory(const Scene& scene) {
   MemoryEstimate estimate;
   const double drag = block(sizeof(dynamics::DragShape));

@@ -14,6 +14,7 @@
 namespace polynya::simulation {
 namespace {
 
+/// Makes the bending model that the scene chooses. Only the database uses the scene's choice of radial cracks.
 std::unique_ptr<const fracture::BendingModel> make_bending_model(const FractureSettings& settings) {
   switch (settings.bending) {
     case BendingModelKind::kNevel:
@@ -26,9 +27,11 @@ std::unique_ptr<const fracture::BendingModel> make_bending_model(const FractureS
   return nullptr;  // unreachable: all kinds are handled above
 }
 
-/// Returns the limits of all kinds of ice of a scene: first of Scene::ice, then of each Scene::own_ice. κ l, below
-/// which a floe does not break, follows from Eq. (7) of [Sawamura2017]. Below the opening force of a crack as long and
-/// as wide as the ice is thick, no crack is searched.
+/// Returns the limits of all kinds of ice of a scene (IceLimits): first of Scene::ice, then of each Scene::own_ice. κ
+/// l, the √area below which a floe does not break, follows from Eq. (7) of [Sawamura2017]. The least splitting force is
+/// that of a crack as long and as wide as the ice is thick: the force grows with the size of the crack, so a smaller
+/// force splits no floe, and no crack is searched for it, which saves time. The last member tells whether slender floes
+/// below κ l break across as beams.
 std::vector<IceLimits> limits_of(const Scene& scene) {
   const auto limits = [&](const fracture::Ice& ice) -> IceLimits {
     const double breakable = scene.fracture.breakable_size_factor *
@@ -56,8 +59,10 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
   }
   for (const Ship& ship : scene.ships) sailing.push_back(sailing_of(ship, scene.water.water.density));
   const ContactSettings& contact = scene.contact;
-  // In ContactRule, this law sets presses_prescribed and is_depth_bounded. It also takes the scene's solver tolerance,
-  // which the law of impulses does not use, and computes the water on the decks of cusps that turn under a hull.
+  // The law of crushing sets the last two members of ContactRule: presses_prescribed, by which a hull presses ice even
+  // if the motions of both are prescribed, and is_depth_bounded. It also takes the solver tolerance of the scene; the
+  // law of impulses keeps that of SolverSettings. Only with this law a hull carries the water pressure that is missing
+  // on a turning cusp until water has flowed onto its deck, if the scene asks for it.
   const bool crushes = contact.law == ContactLaw::kCrush;
   contact_rule = {contact.circle_radius, contact.normal == ContactNormal::kCircleCentres, shortcuts.culls, crushes,
                   crushes};
@@ -68,6 +73,7 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
   }
 }
 
+// Walls without a line load press nothing and do not limit the step.
 double longest_step_by_walls(const Scene& scene) {
   double longest = std::numeric_limits<double>::infinity();
   for (const Wall& wall : scene.walls)
@@ -76,6 +82,7 @@ double longest_step_by_walls(const Scene& scene) {
   return longest;
 }
 
+// A steady drift is computed as a product, a changing one (tide, rows of a table) as an integral over time.
 geometry::Vector drift_at(const Setup& setup, double time) {
   const WaterSettings& water = setup.scene.water;
   return water.is_steady() ? time * water.drift_at(0) : water.drift_path(time);
@@ -85,7 +92,8 @@ Underwater underwater_of(const Hull& hull) {
   const geometry::Box box = bounding_box(hull.waterline);
   const double half_beam = 0.5 * (box.high.y - box.low.y);
   const double middle = 0.5 * (box.high.y + box.low.y);
-  // x of the foremost vertex at which the hull has its full beam. The tolerance 1e-6 only absorbs rounding.
+  // x of the foremost vertex at which the hull has its full beam, from which the bow narrows to the stem. The tolerance
+  // 1e-6 only absorbs rounding of the coordinates; with a larger one, the bow would be taken too short and too blunt.
   double widest = box.low.x;
   for (const geometry::Point p : hull.waterline) {
     if (std::abs(p.y - middle) > (1 - 1e-6) * half_beam) widest = std::max(widest, p.x);
@@ -96,7 +104,7 @@ Underwater underwater_of(const Hull& hull) {
                      .draught = hull.draught,
                      .stem_angle = hull.stem_angle,
                      .entrance_angle = elementary::atan2(half_beam, box.high.x - widest)};
-  underwater.can_take_ice = hull.draught > 0;
+  underwater.can_take_ice = hull.draught > 0;  // without a draught there is no way under the hull, and no path
   if (underwater.can_take_ice) underwater.path = dynamics::submersion_path(underwater.form);
   return underwater;
 }

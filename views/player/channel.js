@@ -1,5 +1,7 @@
 // The channel behind each ship (docs/channel.md): the widths that analysis/channel.cpp measured, and the band that the
-// hull swept. Both are carried with the water to the time that is shown.
+// hull swept. Both are carried with the water to the time that is shown. Places are in the world [m], headings in
+// radians from the x axis, counter-clockwise. placedBy() and lastAtMost() are in motion.js, the other functions for
+// drawing in draw_marks.js.
 
 /** Drift at a time: the displacement of the water in x and y since the start of the scene [m], which carries channels,
  * and the velocity of free drift of ice in x and y [m/s], from which draw_marks.js finds the direction upstream. Both
@@ -13,9 +15,9 @@ function driftAt(samples, time) {
   return [1, 2, 3, 4].map((column) => from[column] + share * (to[column] - from[column]));
 }
 
-/** Makes `run.carry` from `run.info.water`: a function that computes where a point of the water moves from one time to
- * another [s]: with the drift, and along `shear_direction_rad` by the shear rate [1/s] times its distance to port of
- * the origin, which drifts too. */
+/** Makes `run.carry` from `run.info.water`: a function carry(x, y, from, to) that returns the place [x, y] at the time
+ * `to` of the water that is at (x, y) at the time `from` [s]. The water moves with the drift, and in the direction
+ * `shear_direction_rad` at the shear rate [1/s] times its distance to port of the shear's origin, which drifts too. */
 function makeCarrier({ drift, shear_per_s: shear, shear_direction_rad: direction, shear_origin_m: [ox, oy] }) {
   const [cx, cy] = [Math.cos(direction), Math.sin(direction)];
   return (x, y, from, to) => {
@@ -27,9 +29,10 @@ function makeCarrier({ drift, shear_per_s: shear, shear_direction_rad: direction
 }
 
 /** Returns true if a ship has moved by more than 1 m from the first frame to the last, relative to `carry`, which
- * carries points with the water, or leaves them in place for motion over ground. The run must have frames. firstState()
- * of player.js asks this of every ship that is not moored: when the page opens, the layer "channel" is on only if one
- * has moved relative to the water, and the layer "ice at the start" only if one has moved over ground. */
+ * carries points with the water, or leaves them in place for motion over ground. A smaller limit would count ships that
+ * only sway. The run must have frames, which the caller checks. firstState() of player.js asks this of every ship that
+ * is not moored: when the page opens, the layer "channel" is on only if one has moved relative to the water, and the
+ * layer "ice at the start" only if one has moved over ground. */
 function hasGone(run, motions, ship, carry) {
   const { times } = run.frames;
   const last = times.length - 1;
@@ -51,10 +54,11 @@ function posesUpTo(run, motions, ship, time) {
   return poses;
 }
 
-/** Selects poses at distances of at most `spacing` [m], at which the drawn outlines overlap. Poses are interpolated
- * between distant ones; headings count full turns, so they need no wrapping. To save drawing, poses are
- * left out where the ship moves by less than an eighth of `spacing` and turns by less than 0.01 rad, at which the band
- * looks the same; the last pose is always kept. Distances are those of the poses carried with the water to `time`. */
+/** Selects poses at distances of at most `spacing` [m], at which the drawn outlines overlap. Where the given poses are
+ * farther apart, poses are interpolated between them. Headings can be interpolated because they are continuous: frames
+ * do not reduce them to one turn. To save drawing, poses are left out where the ship moves by less than an eighth of
+ * `spacing` and turns by less than 0.01 rad, at which the band looks the same; the last pose is always kept. Distances
+ * are those of the poses carried with the water to `time`. */
 function evenly(poses, spacing, carry, time) {
   const placed = ([x, y, , at]) => carry(x, y, at, time);
   const even = [];
@@ -71,9 +75,10 @@ function evenly(poses, spacing, carry, time) {
   return even;
 }
 
-/** Draws the band that hulls swept: the outlines along their tracks, carried with the water and painted over each
- * other in an opaque colour. Two outlines are at most an eighth of the hull's length apart; with a larger spacing the
- * edges of the band become jagged. */
+/** Draws the band that hulls swept up to a time [s]: the outlines along their tracks, carried with the water and
+ * painted over each other. The colour must be opaque, because a translucent one would darken where outlines overlap.
+ * Two outlines are at most an eighth of the hull's length apart; with a larger spacing the edges of the band become
+ * jagged, with a smaller one drawing takes longer. */
 function drawSweptBand(context, view, run, motions, time, colours) {
   run.info.ships.forEach(({ waterline_m: waterline }, index) => {
     const spacing = hullBox(waterline).length / 8;
@@ -85,12 +90,14 @@ function drawSweptBand(context, view, run, motions, time, colours) {
   });
 }
 
-/** Stations that are a channel behind a ship (`is_channel` in docs/channel.md), from the last measurement up to a time
- * [s], carried with the water to that time; none before the first measurement. `channel_measured_s` are all instants of
- * measurement, also those without any station; at most 200, because each makes the page larger and slower to write.
- * (x, y) is the middle of the station on the track, (fx, fy) the direction of the track, `port` and `starboard`
- * the distances from the track to the ice, `length` the length of the station along the track, `along` its distance
- * from the beginning of the track, which only tests read, and `beam` the beam of the hull [m]. */
+/** Stations that are a channel behind a ship (`is_channel` in docs/channel.md), from the last measurement at or before
+ * a time [s], carried with the water to that time; none before the first measurement. `channel_measured_s` lists all
+ * instants of measurement, also those without any station, at which the drawn channel disappears. There are at most 200
+ * (player_data.cpp), because each makes the page larger and slower to write; between them the channel is not up to
+ * date. Of a station, (x, y) is its middle on the track, (fx, fy) the unit vector along the track, `port` and
+ * `starboard` are the distances from the track to the ice, `length` is its length along the track, `along` its distance
+ * from the beginning of the track, which only tests read, and `beam` the beam of the hull, the same for all stations
+ * [m]. */
 function stationsOf(run, ship, time) {
   const { columns: c, info } = run;
   const measured = c.channel_measured_s[lastAtMost(c.channel_measured_s, time)];
@@ -105,14 +112,14 @@ function stationsOf(run, ship, time) {
   return stations;
 }
 
-/** Mean width of the stations in words; "" if there are none. */
+/** Mean width of the stations of one ship in words, in metres and in beams, for the legend; "" if there are none. */
 function widthWords(stations) {
   if (stations.length === 0) return "";
   const mean = stations.reduce((sum, { port, starboard }) => sum + port + starboard, 0) / stations.length;
   return `${mean.toFixed(1)} m wide, ${(mean / stations[0].beam).toFixed(2)} beams`;
 }
 
-/** Draws the rectangle from ice to ice at each station. */
+/** Draws the rectangle from ice to ice at each station. Stations outside the visible part of the map are skipped. */
 function drawStations(context, view, stations, colours) {
   context.beginPath();
   for (const { x, y, fx, fy, length, port, starboard } of stations) {

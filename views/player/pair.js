@@ -1,14 +1,14 @@
-// A link to an instant of two runs: the link of the first run, with `floe2` for the selected floe of the second.
-
+/** Returns the parameters of a link to an instant of two runs: those of the first run (momentOf()) with the time of the
+ * common clock [s], and `floe2` for the selected floe of the second. */
 function momentOfPair([first, second], clock) {
   const words = { ...momentOf(first), t: Number(clock.time.toFixed(4)) };
   if (second.state.selected >= 0) words.floe2 = second.state.selected;
   return words;
 }
 
-/** Goes to the instant of a link in the first player, and selects the floe of the second. At the next refresh of the
- * screen share() of makeCommon() copies the settings that the link changed to the second player. Returns messages about
- * parts that were not understood. */
+/** Goes to the instant of a link in the first player, and selects the floe `floe2` in the second. At the next refresh
+ * of the screen, share() of makeCommon() copies the settings that the link changed to the second player. Returns
+ * messages about parts that were not understood. */
 function goToMomentOfPair([first, second], link) {
   const words = new URLSearchParams(link.replace(/^#/, ""));
   const ofSecond = words.get("floe2");
@@ -20,9 +20,11 @@ function goToMomentOfPair([first, second], link) {
 // Two runs side by side. Each has its own player in a frame. This script has their common clock and their common
 // settings.
 
-/** Returns the page of run `k`, made from its data in this page. The data are removed from this page, to save memory.
- * `axis_s` is the range of times that the axes of both runs show [s]. The character `<` is escaped in the options,
- * because it could end the script element that contains them. */
+/** Returns the HTML of the page of run `k` (0 or 1): `template` is the page of one run with marks in double braces,
+ * which are replaced by the run's data in this page. The data are removed from this page, to save memory. `labels` are
+ * the names that the players show for the runs, `axis_s` is the range of times that the axes of both show, from the
+ * earlier start to the later end [s]. The character `<` is escaped in the options, because a name could otherwise end
+ * the script element that contains them. */
 function pageOfRun(template, { labels, axis_s }, k) {
   const take = (id) => {
     const text = byId(id).textContent;
@@ -34,7 +36,8 @@ function pageOfRun(template, { labels, axis_s }, k) {
   return template.replace(/\{\{(title|options|info|columns)\}\}/g, (_, name) => parts[name]);
 }
 
-/** Puts the two players into the page. Returns them when both have started. */
+/** Puts the two players into the page, each in a frame of its own, which becomes its member `frame`. The returned
+ * promise gives them when both have started. */
 function openPlayers() {
   const pair = JSON.parse(byId("pair-info").textContent);
   const template = JSON.parse(byId("player-page").textContent);
@@ -47,9 +50,10 @@ function openPlayers() {
   })));
 }
 
-/** Makes the common clock, which replaces the clocks of both players. A run that ends earlier stays at its end, because
- * its own clock does not go beyond it; with `isOver` its map says so. Each player also gets the speed of playback, by
- * which its map decides how often to redraw ice at rest (makeIcePicture()). */
+/** Makes the common clock, which replaces the clocks of both players: their controls and keys act on it. A run that
+ * ends earlier stays at its end, because its own clock does not go beyond it; with `isOver` its map shows a notice.
+ * Each player also gets the speed of playback, which determines for how much time ahead its map draws the ice at rest
+ * as one picture (makeIcePicture()). */
 function makePairClock(players) {
   const clock = makeClock(players[0].axis, () => {
     byId("now").textContent = `${clock.time.toFixed(1)} s`;
@@ -63,9 +67,10 @@ function makePairClock(players) {
   return clock;
 }
 
-/** Applies the settings of another player's plots, as far as this player has the same curves: the quantity and the
- * hidden curves of the first plot, the full scale or the scale without spikes (`isFull`), the visible part of the run
- * (`span` [s]), and the quantities of the `further` plots. */
+/** Applies the settings of another player's plots. The `quantity` of the first plot and its `hidden` kinds of curves
+ * are applied only if this run has that quantity. `isFull` chooses the scale up to the largest value instead of the
+ * scale without spikes, `span` is the visible part of the run [s], and `further` lists the quantities of the plots
+ * below. */
 function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, span, further }) {
   if (Object.hasOwn(plot.quantities, quantity) && (plot.quantity !== quantity
     || [...plot.hidden].join() !== hidden.join())) {
@@ -80,7 +85,8 @@ function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, sp
 
 /** Settings that both players share: `of` reads one from a player, `give` applies it to another. A setting is shared
  * while `isOn` returns true, or always without it. Changes that are made while `isOn` returns false are not shared
- * later. Each player keeps its own selection of floe, ship and event, and its own ruler. */
+ * later. While a player follows a ship, only the scale of its map is shared, because the ship determines the centre.
+ * Each player keeps its own selection of floe, ship and event, and its own ruler. */
 const common = {
   colours: { of: ({ state }) => state.colourBy, give: ({ actions }, by) => actions.colourBy(by) },
   layers: { of: ({ state }) => state.layers, give: ({ actions }, layers) =>
@@ -102,12 +108,14 @@ const common = {
   },
 };
 
-/** Returns functions for the common settings, which are first those of the first player. share() applies settings that
- * have changed in one player to the other; it is called at each refresh of the screen. */
+/** Applies the settings of the first player to the second, and returns two functions. share() applies settings that
+ * have changed in one player since its last call to the other; if both have changed one, that of the first counts. It
+ * is called at each refresh of the screen. show() draws both plots again, when the check box for a common scale or a
+ * plot has changed. */
 function makeCommon(players) {
   const known = {}; // the setting of both players when it was last shared, as JSON
   const wordsOf = ({ of }) => players.map((player) => JSON.stringify(of(player)));
-  // Makes both plots use a common scale if the check box for it is on.
+  // Drawing again makes both plots use a common scale if the check box for it is on (joinScales()).
   const show = () => players.forEach(({ plot }) => plot.show(...plot.span));
   const give = (name, from) => {
     const thing = common[name];
@@ -128,8 +136,10 @@ function makeCommon(players) {
   };
 }
 
-/** Gives both players the same extent of the map, the same scales of plots and arrows, and the same classes of colours.
- * The plots share a scale only while they show the same quantity and the check box for it is on. */
+/** Gives both players the same extent of the map, which contains both runs, the same scales of arrows (the smaller one
+ * of both) and the same classes of colours, up to the larger extremes. Then the same length or colour means the same in
+ * both. The plots share a scale, which contains the ranges of both, only while they show the same quantity and the
+ * check box for it is on. */
 function joinScales(players) {
   const scales = Object.fromEntries(["forceScale", "arrowScale"].map((name) =>
     [name, Math.min(...players.map((player) => player[name]))]));
@@ -153,8 +163,8 @@ function joinScales(players) {
   });
 }
 
-/** Moves to the next or previous event of either run that has a mark on the timeline. An event of the other run at the
- * same time is passed over. */
+/** Moves to the next (`step` 1) or previous (−1) event of either run that has a mark on the timeline, seen from the
+ * present time, and selects it in its run. If both runs have events at that time, only that of the first is reached. */
 function stepEvent(players, clock, step) {
   const found = players.map(({ actions, run }) => {
     const index = actions.eventFrom(clock.time, step);
@@ -163,6 +173,7 @@ function stepEvent(players, clock, step) {
   if (found.length > 0) found[0].actions.goToEvent(found[0].index);
 }
 
+/** Changes this page and both players from the light theme to the dark one or back. The choice is not stored. */
 function toggleThemes(players) {
   const isDark = getComputedStyle(document.documentElement).colorScheme.includes("dark");
   for (const { documentElement } of [document, ...players.map(({ frame }) =>
@@ -170,13 +181,15 @@ function toggleThemes(players) {
   for (const player of players) player.refreshTheme();
 }
 
-/** Handles the controls of the common bar, and keys that are pressed there. */
+/** Handles the controls of the common bar, and keys that are pressed there, which act as if they were pressed in the
+ * first player. The players' own controls and keys for the theme, the link and the next event act on both runs as well.
+ * `address` returns the link to the present instant. */
 function watchBar(players, clock, shared, address) {
   const common = { toggleTheme: () => toggleThemes(players), copyLink: () => copyLink(address()),
     stepEvent: (step) => stepEvent(players, clock, step) };
   for (const { actions } of players) Object.assign(actions, common);
   watchControls({ ...players[0].actions, shareScale: shared.show });
-  document.addEventListener("keydown", (event) => { // the key acts as if it were pressed in the first player
+  document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || isForControl(event)) return;
     const { contentWindow, contentDocument } = players[0].frame;
     const passed = new contentWindow.KeyboardEvent("keydown", { key: event.key, shiftKey: event.shiftKey, bubbles: true,
@@ -185,8 +198,8 @@ function watchBar(players, clock, shared, address) {
   });
 }
 
-/** Starts the page. Both runs play at the larger of the speeds at which they would start alone. Tests use
- * `polynyaPair`. */
+/** Starts the page. Both runs play at the larger of the speeds at which they would start alone, and the address of the
+ * page follows the state of both. `polynyaPair` is for tests and tools/measure_player.js only. */
 async function startPair() {
   const players = await openPlayers();
   const clock = makePairClock(players);

@@ -2,13 +2,15 @@
 
 // Text and controls of the page.
 
-/** Kinds of events that the panel counts, by the words that it shows for them. */
+/** Kinds of events whose numbers the panel of facts shows, by the words that it shows for them. */
 const eventCounts = { bends: "bend", splits: "split", ground: "grind", "rejected cuts": "rejected_cut",
   "went under": "submerge", "came up": "resurface", "stayed under": "stay_under", "moorings broken": "mooring_break" };
 
-/** Fills the panel with the numbers of the whole run. A page that contains only a part of the floes or frames shows
- * both numbers, such as "20 of 300"; written with `--area`, it counts only the events of its floes. If ice went under
- * hulls, rows with the present numbers stand above. */
+/** Fills the panel of facts, which do not change with time. A page that was written with `--area`, `--every`, `--from`
+ * or `--until` contains only a part of the floes or frames: it shows both numbers, such as "20 of 300". With `--area`
+ * it counts only the events of its floes. Kinds of events that did not occur are left out, except bends and splits of a
+ * scene that has run. If ice went under hulls, two rows with the numbers at the present time stand above
+ * (showCountsUnderHulls()). */
 function fillFacts({ run: { info, floes }, name, plan }) {
   const ofRun = (held, all) => (held === all ? held : `${held} of ${all}`);
   const counts = Object.entries(eventCounts).map(([words, kind]) =>
@@ -30,8 +32,8 @@ function fillFacts({ run: { info, floes }, name, plan }) {
   if ("went under" in facts) byId("facts").prepend(...rowsUnderHulls());
 }
 
-/** Options of the list of quantities that a plot can show. Forces by cause, which are drawn as stacked areas,
- * are a separate group. */
+/** Options of the list from which the user chooses the quantity of a plot (plot_panel.js). Forces by cause, which are
+ * drawn as stacked areas, are a separate group. A group without quantities is left out. */
 function quantityGroups(quantities) {
   return [[false, "Quantities"], [true, "Stacked areas"]].flatMap(([stacks, label]) => {
     const group = Object.entries(quantities).filter(([, { isStack = false }]) => isStack === stacks);
@@ -40,8 +42,9 @@ function quantityGroups(quantities) {
   });
 }
 
-/** Fills the page and connects its controls. Playback starts at the slowest speed of the list at which the run takes at
- * most 40 s, or at the fastest one if there is none. */
+/** Fills the page and connects its controls. What a run does not have is hidden or disabled. Playback starts at the
+ * slowest speed of the list at which the run takes at most 40 s, or at the fastest one if there is none; with a longer
+ * time, runs start slower. */
 function fillPage(player) {
   const { run: { info, frames }, range, name, isOneOfTwo, axis, state, actions } = player;
   byId("scene").textContent = name;
@@ -71,6 +74,7 @@ function fillPage(player) {
 
 // Drawing of the picture and the numbers at each refresh of the screen.
 
+/** Shows the time, the number of floating floes, and what depends on them: sizes, ice under hulls, plots, timeline. */
 function showNumbers({ run, state, places, plotPanel, sizePanel, timeline }) {
   const words = `${state.time.toFixed(1)} s`;
   byId("now").textContent = words;
@@ -82,10 +86,11 @@ function showNumbers({ run, state, places, plotPanel, sizePanel, timeline }) {
   timeline.setTime(state.time, `${words}, ${counted(places.count, "floe")}`);
 }
 
-/** Draws at each refresh of the screen what has changed, and advances the clock of the player while it plays. The
- * clocks of two runs side by side never play; the common clock of pair.js sets their time. Tests wait for `drawn`, the
- * number of pictures of the ice. tools/measure_player.js reads `drawTimes`, the time that each took [ms]; the list is
- * emptied at 2000 to limit it. */
+/** Draws at each refresh of the screen what has changed (`iceDirty`, `marksDirty` of the state), and advances the clock
+ * of the player while it plays. The clocks of two runs side by side never play; the common clock of pair.js sets their
+ * time, and drawing is the same. A map that follows a ship is centred on it before it is drawn. Tests wait for `drawn`,
+ * the number of pictures of the ice. tools/measure_player.js reads `drawTimes`, the time that each took [ms]; the list
+ * is emptied after 2000, so that it does not grow without limit. */
 function startDrawing(player, canvases) {
   const { state, view, places, motions } = player;
   const drawIce = makeIcePicture(player, canvases[0]);
@@ -116,10 +121,11 @@ function startDrawing(player, canvases) {
 
 // Assembly of the player.
 
-/** Reads the run, and adds data that several parts use. `breakOf` has, for each floe, the index of the event that ended
- * it; a rejected cut does not end a floe, nor does going under a hull. The colours of the floe's pieces and its card
- * depend on that event. `moorings` tells when moorings broke, and `carry` moves points with the water from one time to
- * another. `under` counts the floes that went under hulls, and `outline` gives the path of a floe. */
+/** Reads the run, and adds data that several parts use. `breakOf` has, for each floe that ended, the index of the event
+ * that ended it. The colours of the floe's pieces and its card depend on that event, so the events that do not end a
+ * floe are left out: rejected cuts and going under a hull. `under` has the number of floes that went under hulls and
+ * the times at which they surfaced, and `moorings` tells when moorings broke. `carry` moves points with the water from
+ * one time to another (makeCarrier()), and `outline(floe)` gives the outline of a floe as a path for drawing. */
 function readPlayedRun(source) {
   const run = readRun(source);
   run.breakOf = new Map();
@@ -133,14 +139,17 @@ function readPlayedRun(source) {
   return run;
 }
 
-/** Options of the page. For one of two runs side by side: its `label` and `axis_s`, the common axis of times. For a
- * scene that has not run: its `plan`. Otherwise they are empty. */
+/** Options of the page. For one of two runs side by side: its `label`, the name that is shown, and `axis_s`, the first
+ * and the last time of the common axis [s]. For a scene that has not run: its `plan` (scene_plan.cpp). Else empty. */
 const readOptions = () => JSON.parse(byId("page-options").textContent);
 
-/** State of the page when it opens. Indices are −1 if nothing is chosen. `iceDirty` is set when all must be drawn
- * again, `marksDirty` when only the marks above the ice must. `sizes` is the range of floe sizes that is highlighted,
- * or null. `isFitted` is true while the map shows the whole run; it is then fitted again when the size of the map
- * changes. The channel is shown if a ship moves through the water, the ice at the start if a ship moves over ground. */
+/** State of the page when it opens: a clock with further members. `selected` and `hovered` are floes, `ship`,
+ * `hoveredShip` and `follow` (the ship in the middle of the map) are ships, `event` is the selected event; −1 if
+ * nothing is chosen, for events null. `iceDirty` is set when all must be drawn again, `marksDirty` when only the marks
+ * above the ice must. `sizes` is the range of floe sizes that is highlighted [m], `ruler` the measured line; both may
+ * be null. `isFitted` is true while the map shows the whole run; it is then fitted again when the size of the map
+ * changes. Of the layers, the channel is shown if a ship that is not moored moves through the water, the ice at the
+ * start if one moves over ground. */
 function firstState(run, motions, range) {
   const isUnderWay = (carry) => run.frames.times.length > 0 && run.info.ships.some(({ is_moored: isMoored }, ship) =>
     !isMoored && hasGone(run, motions, ship, carry));
@@ -154,10 +163,11 @@ function firstState(run, motions, range) {
   });
 }
 
-/** Makes the player without its controls. Tests and measurements read its members. `cardIsStale` is set when the card
- * of a floe must be filled again; `loadLine` has the loads along the hulls, `box` the part of the world that fit()
- * shows. Only tests use the last four members: `stations` of the channel behind a ship, `contacts` of the present
- * frame, `valueWords` and `rulerWords`. */
+/** Makes the player without its controls. Tests and measurements read its members. `range` is the time of the first and
+ * the last frame [s], `axis` the range of the time axis, `name` the name that the page shows, and `box` the part of the
+ * world that fit() shows [m]. `cardIsStale` is set when the card of a floe must be filled again; `loadLine` has the
+ * loads along the hulls. Only tests use the last four members: `stations` of the channel behind a ship, `contacts` of
+ * the present frame, `valueWords` and `rulerWords`. */
 function makePlayer(canvases, source) {
   const run = readPlayedRun(source);
   const { times } = run.frames;
@@ -173,7 +183,8 @@ function makePlayer(canvases, source) {
     name: options.label ?? run.info.scene, state, view: makeMapView(byId("stage"), canvases), places, motions,
     box: extentOf(run, motions, places, range), colours: themeColours(), colourings, extremes, cardIsStale: false,
     loadLine: makeLoadLine(run), drawn: 0, drawTimes: [],
-    // An arrow of 40 px is a large force (typicalForce()), or the speed at which the highest class of colours begins.
+    // An arrow of 40 px is a large force, which one contact in twenty exceeds (typicalForce()), or the speed at which
+    // the highest class of colours begins. Longer arrows would hide more of the ice.
     forceScale: 40 / (typicalForce(run) || 1), // [px/N]
     arrowScale: 40 / (colourings.speed.edges.at(-1) || 1), // [px/(m/s)]
     /** Sets the classes of colours for other extremes, such as those of another run. */
@@ -183,7 +194,7 @@ function makePlayer(canvases, source) {
   };
 }
 
-/** Updates the page when the theme or the sizes of its parts change. */
+/** Updates the page when the theme or the sizes of its parts change. A map that shows the whole run is fitted again. */
 function watchPage(player) {
   const { state, view, plotPanel } = player;
   player.refreshTheme = () => {
@@ -202,7 +213,9 @@ function watchPage(player) {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", player.refreshTheme);
 }
 
-/** Starts the player in this page with the run of a source. */
+/** Starts the player in this page with the run of a source (pageSource) and returns it. `keepLink` updates the address
+ * of the page, so that it leads to the present state; pair.js sets it for two runs side by side. `address` is the link
+ * that the user can copy. */
 function startPlayer(source) {
   const canvases = [byId("ice"), byId("marks")];
   const player = makePlayer(canvases, source);

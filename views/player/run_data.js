@@ -1,7 +1,7 @@
 // Reads the run from the page: its columns, and the shapes of its floes.
 
-// Largest number of points of assembled shapes that are kept, 64 MB. If there are more, all are dropped and assembled
-// again when needed; a smaller number saves memory and costs time.
+// Largest number of points of assembled shapes that are kept in memory, 64 MB. If there are more, all are dropped and
+// assembled again when they are needed; a smaller number saves memory and makes drawing slower.
 const mostKeptPoints = 4e6;
 
 /**
@@ -11,7 +11,8 @@ const mostKeptPoints = 4e6;
  * ends before the point ring_ends[ring], counted from the floe's first point. The page contains shapes as floes.ndjson
  * does (docs/run-folder.md): whole, or in parts, in the order of the floe's points. A part is `part_count` points of
  * `part_floe` from the point `part_first`: of the parent's ring `part_ring`, where it may wrap around from the ring's
- * end to its start, or, if `part_ring` is negative, of the floe's own new points in points_m. Parts are sorted by floe.
+ * end to its start, or, if `part_ring` is negative, of the floe's own new points in points_m, which has the points that
+ * are not a parent's, floe after floe. Parts must be sorted by floe, because they are searched by bisection.
  * Floes are numbered by the ids of the run, also on a page of an area; a parent has a smaller id than its pieces.
  * Shapes in parts are assembled when they are needed and then kept.
  */
@@ -65,17 +66,19 @@ function makeShapes({ parent, rings_of: ringsOf, ring_ends: ringEnds, points_m: 
 
 const bytesOfBase64 = (text) => Uint8Array.fromBase64?.(text) ?? Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
 
-/** Types of columns by their names in the page (ColumnWriter in views/player/player_page.hpp). Only frames are bytes,
- * "u8"; flags such as came_up are integers, "i32". */
+/** Types of columns by their names in the page. A type that ColumnWriter (views/player/player_page.hpp) writes must be
+ * here, otherwise the page does not open. Only frames are bytes, "u8"; flags such as came_up are integers, "i32". */
 const columnTypes = { f64: Float64Array, i32: Int32Array, u8: Uint8Array };
 
-/** Columns with one value for each floe. A new column of floes must be added here as well as in player_data.cpp;
- * otherwise pages of an area read it by the wrong floe. */
+/** Columns with one value for each floe, which become members of `floes` (readFloes()). A new column of floes must be
+ * added here as well as in player_data.cpp; otherwise `floes` does not have it, and pages of an area read it by the
+ * wrong floe. */
 const floeRows = ["parent", "generation", "born_s", "died_s", "went_under_s", "came_up", "area_m2", "mass_kg",
   "thickness_m", "flexural_strength_Pa", "centroid_x_m", "centroid_y_m", "reach_m"];
 
-/** Expands the columns of a page of an area, which has only some floes, to all floes of the run. Floes that the page
- * does not have are never born, never break and never go under (times of Infinity), so they are never drawn. */
+/** Expands the columns of a page of an area, which has only some floes, to all `count` floes of the run, so that ids
+ * are indices. Floes that the page does not have are never born, never break and never go under (times of Infinity), so
+ * they are never drawn; they have no parent and no rings. The columns of parts name floes by id and need no change. */
 function spreadFloes(columns, count) {
   const ids = columns.floe_id;
   for (const name of floeRows) {
@@ -105,7 +108,8 @@ const pageSource = {
 };
 
 /** Reads the run from a source. Columns are views into its bytes, so each must begin at a multiple of 8 bytes in their
- * buffer. */
+ * buffer; the browser throws an error for a column that is not aligned. Only a page of an area has the column
+ * `floe_id`. */
 function readRun(source) {
   const { info, bytes } = source.read();
   const columns = {};
@@ -117,10 +121,12 @@ function readRun(source) {
   return { info, columns, floes, frames, forces: readForces(info, columns) };
 }
 
-/** Columns of floes, named without units: died_s becomes `died`, went_under_s `wentUnder`; both are Infinity if it
- * never happens. `generation` is the number of ancestors of a floe. `reach` is the distance of the farthest vertex from
- * the centroid: a floe farther than it from the screen or the pointer is skipped. `floatsUntil` is the time at which it
- * broke or went under. `cameUp` is 1 for brash: floes that surfaced from under a hull, and their pieces. */
+/** Columns of floes, named without units: died_s becomes `died` and went_under_s `wentUnder` [s]; both are Infinity if
+ * it never happens. `generation` is the number of ancestors of a floe. `reach` is the distance of the farthest vertex
+ * from the centroid [m]: a floe farther than it from the screen or the pointer is skipped. `floatsUntil` is the time at
+ * which the floe broke or went under [s]; until then it is drawn on the water. `cameUp` is 1 for brash: floes that
+ * surfaced from under a hull, and their pieces. `children` has the ids of the pieces of each floe that broke.
+ * `shape(floe)` gives a floe's points (makeShapes()). */
 function readFloes(columns) {
   const capital = (_, letter) => letter.toUpperCase();
   const nameOf = (column) => column.replace(/_(s|m|m2|kg|Pa)$/, "").replace(/_(.)/g, capital);
@@ -129,7 +135,7 @@ function readFloes(columns) {
   Object.assign(floes, {
     count, cx: floes.centroidX, cy: floes.centroidY, shape: makeShapes(columns),
     floatsUntil: floes.died.map((died, i) => Math.min(died, floes.wentUnder[i])),
-    oldest: new Int32Array(count), // the floe of the scene from which it broke: equal in a family
+    oldest: new Int32Array(count), // id of the floe of the scene from which it broke; its own id if it is one
     children: new Map(),
   });
   for (let i = 0; i < count; ++i) {
@@ -142,10 +148,12 @@ function readFloes(columns) {
 
 /** Reads frames.bin (docs/run-folder.md) and sorts its records by floe. The file has a header of 16 bytes. A frame has
  * four 32-bit words ("FRAM", the numbers of ships and floes, and 0), its time, six doubles per ship, and for each floe
- * its id as a 64-bit integer and six doubles. A page contains whole frames only. A frame contains only the floes that
- * do not move as their last record predicts. The records of a floe are those from recordsOf[floe] to before
- * recordsOf[floe + 1], in ascending order of time: `recordFrame` is the frame of each, and `recordAt` the index in
- * `doubles` of its six numbers, which motion.js names. */
+ * its id as a 64-bit integer, of which the lower 32 bits are read, and six doubles. A page contains whole frames only.
+ * A frame contains only the floes that do not move as their last record predicts. Of the result, `times` are the times
+ * of the frames [s], and `shipAt` is the index in `doubles` of the first ship of each frame. The records of a floe are
+ * those from recordsOf[floe] to before recordsOf[floe + 1], in ascending order of time: `recordFrame` is the frame of
+ * each, and `recordAt` the index in `doubles` of its six numbers: x, y [m], angle [rad], velocity in x and y [m/s], and
+ * angular velocity [rad/s]. Ships have the same six. */
 function readFrames(bytes, floeCount, shipCount) {
   const words = new Uint32Array(bytes.buffer, bytes.byteOffset, bytes.length >> 2);
   const doubles = new Float64Array(bytes.buffer, bytes.byteOffset, bytes.length >> 3);
@@ -178,8 +186,9 @@ function readFrames(bytes, floeCount, shipCount) {
   return { times: Float64Array.from(times), shipAt, shipCount, doubles, recordsOf, recordFrame, recordAt };
 }
 
-/** Rows of forces.csv for each ship, which its card and the plots show: the columns named in `force_columns` and
- * `force_causes` of the run's information, in the selected time. */
+/** Rows of forces.csv for each ship, which its card and the plots show: the time `force_t_s`, and the columns that the
+ * lists `force_columns` and `force_causes` of `info` name, which player_data.cpp makes with their labels and units. A
+ * page that was written with `--from` or `--until` has only the rows of that time. */
 function readForces(info, columns) {
   const named = [...info.force_columns.map(({ name }) => name), ...info.force_causes.map(({ column }) => column)];
   return info.ships.map((_, ship) => {

@@ -8,7 +8,8 @@ namespace {
 
 using geometry::Point;
 
-/// Returns the index in the path of a problem, such as "ships[2].speed", if the path belongs to that list.
+/// Returns the index in the path of a problem if the path belongs to that list: 2 for "ships[2].speed" and "ships".
+/// Otherwise returns nullopt.
 std::optional<std::size_t> index_in(std::string_view path, std::string_view list) {
   if (!path.starts_with(list) || path.substr(list.size()).substr(0, 1) != "[") return {};
   std::size_t index = 0;
@@ -17,8 +18,9 @@ std::optional<std::size_t> index_in(std::string_view path, std::string_view list
   return index;
 }
 
-/// Returns the position of the body to which a problem belongs; nothing for ice, because an entry may have many floes.
-/// Hulls are numbered in the order of ships, structures and walls (hull_of()).
+/// Returns the position of the ship, structure or wall to which a problem belongs [m]. Returns nullopt for all other
+/// problems, also those of ice, because an entry may have many floes. Hulls are numbered in the order of ships,
+/// structures and walls (hull_of()); `before` counts those of the lists before.
 std::optional<Point> place_of(const io::Problem& problem, const simulation::Scene& scene) {
   std::size_t before = 0;
   for (const auto& [list, count] : {std::pair{"ships", scene.ships.size()},
@@ -31,8 +33,8 @@ std::optional<Point> place_of(const io::Problem& problem, const simulation::Scen
   return {};
 }
 
-/// Writes the routes of the ships that follow one: the ship's position and the waypoints, and the speed on the leg to
-/// each waypoint.
+/// Writes the routes of the ships that follow one: the ship's position at the start and the waypoints [m], and the
+/// speed on the leg to each waypoint [m/s], so there is one speed less than points.
 void write_routes(io::JsonWriter& json, const simulation::Scene& scene) {
   json.key("routes").open('[');
   for (const simulation::Ship& ship : scene.ships) {
@@ -49,9 +51,11 @@ void write_routes(io::JsonWriter& json, const simulation::Scene& scene) {
 
 }  // namespace
 
-// The page lists the warnings and hints that were found while reading the scene, and marks on the map those with a
-// position (plan.js). `words` is the message of the problem; `line` is 0 if no line is known. With `--watch` the page
-// reloads itself when the newest stamp differs from its own.
+// The page draws the routes and the wind at the start of the scene; a wind that changes later is not shown. It lists
+// the warnings and hints that were found while reading the scene, and marks on the map those with a position (plan.js).
+// There are no errors among them, because a scene with errors is not loaded. `words` is the message of a problem
+// without its place in the file, which `line` (0 if it is not known) and `path` give. With `--watch` the page reloads
+// itself when the newest stamp, in the script `stamp_file`, differs from its own.
 std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, const std::string& stamp_file) {
   std::string text;
   io::JsonWriter json(text);
