@@ -19,9 +19,9 @@ from . import measures
 from .folder import RESULT, RUN, write_atomically
 
 DONE, FAILED, INPUT_OUTPUT, STOPPED = 0, 4, 5, 75  # exit codes of app/command_line/console.hpp
-# Value of `stopped_by` in summary.json from the start of a run until it ends in an orderly way. If a run has ended and
-# still has this value, the machine ended it, for example by a lack of memory, and not the case itself
-# (docs/run-folder.md). Must be equal to the text in io/run/run_writer.cpp.
+# Value of `stopped_by` in summary.json from the start of a run until it ends in an orderly way. If a run that did not
+# crash has ended and still has this value, the machine is the cause, for example a lack of memory, and another try may
+# succeed (docs/run-folder.md). It must be equal to the text in io/run/run_writer.cpp.
 KILLED = "still running, or killed"
 # Signals that mean an error of the program, which would occur again. Other signals come from the machine.
 CRASHES = (signal.SIGABRT, signal.SIGSEGV, signal.SIGBUS, signal.SIGFPE, signal.SIGILL)
@@ -120,9 +120,9 @@ def case_in_words(study, number):
 
 
 def failed(study, number, folder, code, words):
-    """Returns (exit code, message) of a failure. One that would occur again is recorded as the case's result, and the
-    case then runs again only with --retry-failed. A failure of the machine, such as a full disk or a lack of memory, is
-    not recorded, so that the case stays unfinished."""
+    """Returns (exit code, message) of a failure. One that would occur again is recorded as the case's result, and
+    jobs.run_cases() then runs the case again only with --retry-failed. A failure of the machine, such as a full disk or
+    a lack of memory, is not recorded, so that the case stays unfinished."""
     words = words.strip()[-KEPT_WORDS:] or without_words(folder, code)
     is_killed = code > 0 and summary_of(folder / RUN).get("stopped_by") == KILLED
     if code == INPUT_OUTPUT or is_killed:
