@@ -36,7 +36,7 @@ def labelled(run, label=None, start=None, end=None):
     return Labelled(run, run.name if label is None else label, start, end)
 
 
-# Returns runs as Labelled; those that already are Labelled keep their names and times.
+# Returns runs as Labelled. A run that already is Labelled keeps its name and times.
 def all_labelled(runs):
     return [run if isinstance(run, Labelled) else labelled(run) for run in runs]
 

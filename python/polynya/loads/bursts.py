@@ -19,7 +19,7 @@ HALVINGS = 6
 #: Number of random samples of a test. The smallest p value is 1/500. More samples: p is more exact and takes longer.
 SIMULATED = 499
 #: Largest fraction of a run's time that bursts and the gaps after them may cover [-]. Larger: long gaps may join peaks
-#: that are independent; smaller: the tests may remain failed.
+#: that are independent; smaller: gaps with which the tests would pass may not be allowed.
 COVERED = 0.25
 UNLIKE = 0.01  #: with a p value below this, parts of the record differ, and a fit to the events is refuted
 

@@ -9,7 +9,7 @@ from polynya.readable import force, in_hours as hours, plain
 from . import estimate
 
 WIDEST = 118  #: largest width of a printed reason [characters]; longer ones continue on the next line
-MOST_KINDS = 12  #: largest number of kinds of runs whose answers are printed; loads-returns.csv has those of all
+MOST_KINDS = 12  #: largest number of kinds of runs whose answers are printed; loads-returns.csv contains all kinds
 
 
 def shape(value):

@@ -29,7 +29,7 @@ def at_least(passage, weights):
 
 # Draws the number of floes of at least each size, and their share of the ice, in two panels. Here and in the panels
 # below, dashed lines and crosses are the upstream gate, solid lines and circles the gate near the body. A grey line
-# marks the size from which floes count as large; it is that of the first case.
+# marks the size from which floes count as large (`gates.size`) in the first case.
 def draw_sizes(axes, cases):
     number, share = axes
     for colour, case in coloured(cases):

@@ -11,7 +11,7 @@ import math
 from typing import Optional
 
 #: Probability with which an interval contains the true mean, and with which no test of a ranking finds a difference
-#: that does not exist [-]. Larger: wider intervals, and fewer patterns are told apart.
+#: that does not exist [-]. Larger: wider intervals, and fewer significant differences.
 LEVEL = 0.95
 
 

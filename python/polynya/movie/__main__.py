@@ -42,7 +42,7 @@ def size(text):
     return tuple(values)
 
 
-# Accepts a file name whose suffix is that of a format; otherwise raises ArgumentTypeError.
+# Returns a file name unchanged if its suffix is .mp4, .gif or .png; otherwise raises ArgumentTypeError.
 def film_name(text):
     from .film import SUFFIXES
 
@@ -135,8 +135,8 @@ def make(options):
     return DONE
 
 
-# Returns the line that the command prints at its end. `times` are those of the pictures [s], `rate` their number per
-# second of the film, and `speed` the simulated seconds per second of the film.
+# Returns the line that the command prints at its end. `times` are the times of the pictures [s], `rate` their number
+# per second of the film, and `speed` the simulated seconds per second of the film.
 def summary(path, times, rate, speed):
     megabytes = f"{os.path.getsize(path) / 1e6:.2g} MB"
     if len(times) == 1 or path.lower().endswith(".png"):

@@ -14,7 +14,7 @@ from .tables import write_table
 
 # Values of the table by regime if the options do not give others: covers [-], floe or piece sizes [m], speeds [m/s] and
 # thicknesses [m]. Every combination is a point. Level ice is one plate, so its cover is 1 and its size 0 (none). In a
-# channel 2.572 m/s are 5 knots, and the thicknesses those of the ice classes, to which rules.py needs points.
+# channel 2.572 m/s are 5 knots and the thicknesses belong to the ice classes, for which rules.py needs these points.
 COVERS = {ice_scenes.PACK: (0.5, 0.7, 0.85), ice_scenes.LEVEL: (1.0,), ice_scenes.CHANNEL: (0.8,)}
 SIZES = {ice_scenes.PACK: (20.0, 40.0), ice_scenes.LEVEL: (0.0,), ice_scenes.CHANNEL: (2.0,)}
 SPEEDS = {ice_scenes.PACK: (1.0, 2.0, 4.0), ice_scenes.LEVEL: (1.0, 2.0, 4.0), ice_scenes.CHANNEL: (1.0, 2.572, 4.0)}

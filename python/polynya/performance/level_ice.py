@@ -17,8 +17,8 @@ OF_THE_START = ("pilot", "sway_speed_m_per_s", "yaw_rate_deg_per_s")
 # Settings of the scene's `fracture`. The plate represents endless ice, which does not split as a floe does. Broken
 # pieces do not surface again, because that would be behind the stern, where they do not load the ship.
 ENDLESS = {"splitting": {"model": "none"}, "resurface": {"enabled": False}}
-# Scatter of the flexural strength between bending events, standard deviation / mean [-], as that of beams at one place
-# (recall). Without scatter, cusps of thick ice form regular patterns that can stop a ship.
+# Standard deviation of the flexural strength between bending events, divided by its mean [-]. Measured beams at one
+# place scatter as much (recall). Without scatter, cusps of thick ice form regular patterns that can stop a ship.
 STRENGTH_SPREAD = 0.2
 
 

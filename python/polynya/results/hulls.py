@@ -9,8 +9,8 @@ import math
 import numpy
 
 # Largest distance between a cylinder's circle and its polygon [m]. Smaller values give more corners. It must be equal
-# to that of `cylinder_waterline` in simulation/world/scene.cpp; otherwise Python would draw another outline than the
-# one with which ice collides.
+# to kSagitta of `cylinder_waterline` in simulation/world/scene.cpp; otherwise Python would draw another outline than
+# the one with which ice collides.
 SAGITTA = 0.01
 
 

@@ -150,8 +150,8 @@ def report(options):
     return made.report(open_study(options.study), options.players)
 
 
-# Runs an action. `words` are the arguments; those of the process if not given. A StudyError is printed by command.run()
-# with its own exit code; one with code 3 gets a line with the number of problems.
+# Runs an action. `words` are the arguments; by default the arguments of the process. A StudyError is printed by
+# command.run() with its own exit code; one with code 3 gets a line with the number of problems.
 def main(words=None):
     options = command_line().parse_args(words)
     actions = {

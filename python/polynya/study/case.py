@@ -154,6 +154,7 @@ def summary_of(run):
         return {}
 
 
+# Returns True if the run in a folder has reached its end.
 def is_finished(run):
     return summary_of(run).get("finished") is True
 

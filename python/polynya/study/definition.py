@@ -16,7 +16,7 @@ LONGEST_RANGE = 10**6  # largest number of values of a range; a mistyped step wo
 LONGEST_NAME = 1000  # longest file name of a scene [characters]
 # Names of studies and of targets, which are parts of file names and of columns.
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
-# Keys of a study, and below them those of its objects `collect`, `collect.management` and `report`. Any other key is
+# Keys of a study, and below them the keys of its objects `collect`, `collect.management` and `report`. Any other key is
 # refused.
 KEYS = (
     "name",
@@ -160,7 +160,8 @@ class Reader:
         self.report([*path, key], f"found {shown(value)}, allowed: {words}")
         return default
 
-    # Returns the name of the study; by default that of its file, with a hyphen for each character that is not allowed.
+    # Returns the name of the study, by default the name of its file with a hyphen for each character that is not
+    # allowed.
     def name(self, study, file):
         default = re.sub(r"[^A-Za-z0-9._-]", "-", file.stem).lstrip("._-") or "study"
         name = study.get("name", default)
