@@ -1,23 +1,26 @@
-"""Errors: problems of scenes with their places, and runs that cannot continue."""
+"""Exceptions of the package, and messages about packages that this Python lacks. SceneError and SimulationError are
+raised by the compiled module; the others are raised in Python."""
 import dataclasses
 import importlib.util
 import os
 import sys
 import typing
 
-DEBIANS = "/usr/bin/python3"  # finds the modules of Debian's packages
+# Debian's own Python, which finds the modules of Debian's packages. Messages suggest it, and it decides between apt-get
+# and pip.
+DEBIANS = "/usr/bin/python3"
 
 
 @dataclasses.dataclass(frozen=True)
 class Problem:
-    """An error or an unusual value in a scene."""
+    """An error or an unusual value in a scene, as `polynya validate --json` prints it."""
 
-    file: str
+    file: str  #: file of the scene, or a name for a scene that is not in a file
     line: typing.Optional[int]  #: from 1; None if there is none, as for a scene from a dict
     column: typing.Optional[int]  #: from 1, in characters
     path: str  #: path of the value: "ships[0].hull.length_m"
-    found: str
-    allowed: str
+    found: str  #: the value that was found, in words
+    allowed: str  #: the values that are allowed, in words
     suggestion: str  #: nearest known key or choice; empty if none is near
     severity: str  #: "error", "warning" or "hint"
     message: str  #: message for people, without the place
@@ -30,7 +33,7 @@ class Problem:
 
 
 class SceneError(ValueError):
-    """A scene that is wrong. `problems` lists all errors with their places."""
+    """A scene that is wrong. `problems` lists all its errors as Problem. Its text has a line for each of them."""
 
     def __init__(self, problems):
         super().__init__(problems)
@@ -41,7 +44,9 @@ class SceneError(ValueError):
 
 
 class InputError(Exception):
-    """Wrong input of a command. `problems` are its lines, `code` is the exit code (app/command_line/console.hpp)."""
+    """Wrong input of a command. `problems`, a list or one value, become the lines of its message. `code` is the exit
+    code with which the command ends (app/command_line/console.hpp): 3 for a wrong scene or study, 2 for a wrong command
+    line, 5 for a file."""
 
     def __init__(self, problems, code=3):
         self.problems = list(problems) if isinstance(problems, (list, tuple)) else [problems]
@@ -53,8 +58,8 @@ class InputError(Exception):
 
 
 def how_to_get(*packages):
-    """Says how to install packages that this Python lacks: by apt-get for Debian's Python, by pip for any other one,
-    such as that of a virtual environment."""
+    """Returns the command that installs packages for this Python: apt-get for Debian's own Python, pip for any other
+    one, such as that of a virtual environment."""
     is_debians = os.path.realpath(sys.executable) == os.path.realpath(DEBIANS) and sys.prefix == sys.base_prefix
     if is_debians:
         return "apt-get install " + " ".join(f"python3-{name}" for name in packages)
@@ -62,8 +67,8 @@ def how_to_get(*packages):
 
 
 def missing_package(error):
-    """Says for an ImportError which Python lacks which package, and what to do; empty if the missing module is a part
-    of polynya."""
+    """Returns a message for an ImportError: which Python lacks which package, and what to do. The message is empty if
+    the missing module is a part of polynya, because this is a defect that no installation repairs."""
     name = (error.name or "").partition(".")[0]
     if name == "polynya":
         return ""
@@ -77,7 +82,8 @@ def missing_package(error):
 
 
 def require(*packages):
-    """Ends a script with a message if this Python lacks one of these packages."""
+    """Ends a script with a message and exit code 1 if this Python lacks one of these packages. Scripts call it before
+    they import them."""
     for name in packages:
         if importlib.util.find_spec(name) is None:
             sys.exit(missing_package(ModuleNotFoundError(name=name)))
@@ -100,7 +106,7 @@ class NotAStudyError(FolderError):
 
 
 class UnfinishedError(FolderError):
-    """A run or a study that is not finished and was read without `unfinished=True`."""
+    """A run or a study that is not finished, and was read without `unfinished=True`, which would accept it."""
 
 
 class VersionError(FolderError):

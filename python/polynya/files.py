@@ -1,7 +1,7 @@
 """Reading files of runs and studies strictly, and writing files so that every error names them.
 
-Every fault in a file raises FolderError with the file and, if there is one, the line. The module needs no numpy,
-because the jobs of a study use it."""
+Every fault in a file that is read raises FolderError, whose message names the file and, if there is one, the line. The
+module needs no numpy, because the jobs of a study use it, which should need little memory."""
 import contextlib
 import csv
 import json
@@ -14,13 +14,15 @@ import subprocess
 from .errors import FolderError
 from .program import program
 
-LONGEST_CELL = 2**31 - 1  # longest cell of a CSV file [characters]; Python's own limit is 131 072
-LONGEST_SHOWN = 60  # longest value in a message [characters]
+# Longest cell of a CSV file [characters]. Python's own limit of 131 072 could refuse a file that polynya has written.
+LONGEST_CELL = 2**31 - 1
+LONGEST_SHOWN = 60  # longest value in a message [characters]; longer ones end in an ellipsis
 
 
 def check_run(folder):
-    """Lets the program read a run folder, as `polynya inspect` does. Raises FolderError with the program's message if
-    the folder is damaged. Afterwards Python can read it without checking each value again."""
+    """Lets the program read and check a run folder, as `polynya inspect` does, so that Python can read it afterwards
+    without checking each value again. Raises FolderError, with the program's message, if the folder is damaged or the
+    program cannot be started."""
     words = [program(), "read-run", "--", os.fspath(folder)]
     try:
         done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, check=False)
@@ -33,7 +35,8 @@ def check_run(folder):
 
 
 def open_regular(path):
-    """Opens a file to read its bytes. Refuses pipes, devices and folders: reading a pipe could wait for ever."""
+    """Opens a file to read its bytes. Raises FolderError if the file cannot be opened, or for pipes, devices and
+    folders: reading a pipe could wait for ever."""
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     except FileNotFoundError:
@@ -46,6 +49,7 @@ def open_regular(path):
     return open(descriptor, "rb")
 
 
+# Returns the contents of a file.
 def read_bytes(path):
     try:
         with open_regular(path) as file:
@@ -55,7 +59,8 @@ def read_bytes(path):
 
 
 def read_text(path):
-    """Returns the text of a file in UTF-8 and keeps its line ends."""
+    """Returns the text of a file in UTF-8, without a byte order mark at its start, and with its line ends as they
+    are."""
     data = read_bytes(path)
     try:
         return data.decode("utf-8-sig")
@@ -65,14 +70,16 @@ def read_text(path):
 
 
 def whole_lines(path):
-    """Returns the lines of a file. A last line without a line break, which a killed run may leave, is ignored."""
+    """Returns the lines of a file without their line breaks. A last line that has no line break, which a killed run may
+    leave, is incomplete and is ignored."""
     text = read_text(path)
     return text[: text.rfind("\n") + 1].split("\n")[:-1]
 
 
 @contextlib.contextmanager
 def naming(path):
-    """Adds the file's name to an OSError within. An error of write(), for example on a full disk, has no name."""
+    """Within this context an OSError without the name of a file gets the name `path`. An error of write(), for example
+    on a full disk, has none, so that its message would not say which file is meant."""
     try:
         yield
     except OSError as error:
@@ -83,7 +90,8 @@ def naming(path):
 
 @contextlib.contextmanager
 def writing(path, **more):
-    """Opens a text file for writing in UTF-8. Errors name the file."""
+    """Opens a text file for writing in UTF-8; an existing file is replaced. An OSError names the file. `more` are
+    further arguments of open()."""
     with naming(path), open(path, "w", encoding="utf-8", **more) as file:
         yield file
 
@@ -103,6 +111,8 @@ class _NoNumber(ValueError):
     """Raised while parsing for a literal that is not a finite number."""
 
 
+# Functions with which json.loads() reads numbers; `literal` is the text of a number. Each raises _NoNumber for one that
+# is not a finite double.
 def _refuse(literal):
     raise _NoNumber(literal)
 
@@ -113,17 +123,19 @@ def _number(literal):
 
 
 def _whole(literal):
-    return int(literal) if len(literal) < 19 else _number(literal)  # beyond 64 bits a double, as in the program
+    return int(literal) if len(literal) < 19 else _number(literal)  # longer ones may exceed 64 bits: doubles
 
 
 # Python parses a number beyond the range of doubles as infinity, or as an integer of any length. The functions above
-# refuse these, but make parsing about ten times slower. So they are used only if a text may contain such a number.
+# refuse these, but make parsing about ten times slower. So they are used only if a text may contain such a number: an
+# exponent of three digits, or 19 digits in a row.
 MAY_BE_BEYOND = re.compile(r"[eE]\+?[0-9]{3}|[0-9]{19}")
 
 
 def parse_json(text, path, line=1, pairs_hook=None):
-    """Returns the value of a JSON text that begins at a line of a file. NaN, Infinity and numbers beyond the range of
-    doubles are refused."""
+    """Returns the value of a JSON text. `path` and `line` are the file and the line at which the text begins; they are
+    used for messages alone. `pairs_hook` is the object_pairs_hook of json.loads(). Raises FolderError for a text that
+    is not JSON, and for NaN, Infinity and numbers beyond the range of doubles."""
     kinds = {"parse_float": _number, "parse_int": _whole} if MAY_BE_BEYOND.search(text) else {}
     try:
         return json.loads(text, object_pairs_hook=pairs_hook, parse_constant=_refuse, **kinds)
@@ -138,7 +150,7 @@ def parse_json(text, path, line=1, pairs_hook=None):
 
 
 def read_json(path):
-    """Returns the object of a JSON file as Members."""
+    """Returns the object of a JSON file as Members, as are all objects in it."""
     found = parse_json(read_text(path), path, pairs_hook=lambda pairs: Members(pairs, path))
     if not isinstance(found, dict):
         raise FolderError(f"{path}:1: not a JSON object")
@@ -167,7 +179,8 @@ class Columns(dict):
 
 
 def read_cells(path):
-    """Returns the cells of a CSV file as Columns of texts, all of one length."""
+    """Returns the cells of a CSV file as Columns: for each name of the first line a list of texts, all of one length.
+    Raises FolderError for a file without names, with a name twice, or with a row of another length."""
     csv.field_size_limit(LONGEST_CELL)
     reader = csv.reader(line + "\n" for line in whole_lines(path))
     rows, places = [], []
@@ -189,7 +202,7 @@ def read_cells(path):
 
 
 def is_number(cell):
-    """Returns True if a cell is a finite number: 1.5 or -2e-3, but not 1_000 or nan."""
+    """Returns True if a cell is a finite number, such as 1.5 or -2e-3. Python would also accept 1_000 and nan."""
     try:
         return "_" not in cell and math.isfinite(float(cell))
     except ValueError:
@@ -197,7 +210,9 @@ def is_number(cell):
 
 
 def numbers(cells, path, name, absent=("", "null")):
-    """Converts the cells of a column to numbers. Absent values become NaN."""
+    """Converts the cells of a column to numbers. A cell that is in `absent` becomes NaN. `path` and `name`, of the file
+    and the column, are for messages. Raises FolderError for a cell that is neither a finite number nor absent; its line
+    is right if no cell of the file contains a line break."""
     try:
         values = list(map(float, cells))
         if all(map(math.isfinite, values)) and "_" not in "".join(cells):
@@ -211,6 +226,6 @@ def numbers(cells, path, name, absent=("", "null")):
 
 
 def shortened(words):
-    """Returns a value as a message shows it."""
+    """Returns a text as a message shows it: at most LONGEST_SHOWN characters, with escapes if it is not printable."""
     words = repr(words) if not words.isprintable() else words
     return words if len(words) <= LONGEST_SHOWN else words[: LONGEST_SHOWN - 1] + "…"

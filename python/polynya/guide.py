@@ -1,13 +1,20 @@
-"""Writes the manual page and bash's completion of the program, by what each of its commands prints as its help:
-`python3 guide.py PROGRAM MAN_PAGE COMPLETION` (app/CMakeLists.txt)."""
+"""Writes the manual page of the program and its completion for bash. Both are made from the help that each command
+prints, so they need no text of their own: `python3 guide.py PROGRAM MAN_PAGE COMPLETION` (app/CMakeLists.txt)."""
 import os
 import re
 import subprocess
 import sys
 
+# The patterns below read the help of a command. A line that matches TITLES begins the usage or a list. In a list, a
+# line that matches ENTRY is an option, positional or command and its meaning; lines indented further continue the
+# meaning.
 TITLES = re.compile(r"^(Usage|Positionals|Subcommands|[A-Z][a-z ,]+):")
 ENTRY = re.compile(r"^  (\S.*?)(?:\s{2,}(.*))?$")
-FILES = {"FILE": "-f", "SCENE": "-f", "FLOES": "-f", "STUDY": "-f", "RUN": "-d", "DIR": "-d"}  # how bash completes them
+# How bash completes a value of each kind, as an option of compgen: -f by files and folders, -d by folders alone. Values
+# of other kinds are not completed.
+FILES = {"FILE": "-f", "SCENE": "-f", "FLOES": "-f", "STUDY": "-f", "RUN": "-d", "DIR": "-d"}
+# The script for bash. completion() replaces PATHS by the names of all commands, VALUES by a line for each option with a
+# value, and KNOWN by a line for each command with its words.
 COMPLETION = """# Completes polynya in bash. Made by python/polynya/guide.py.
 _polynya() {
   local current=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]}
@@ -40,8 +47,10 @@ complete -o filenames -F _polynya polynya
 
 
 class Command:
-    """A command as its help describes it: the text before the usage and after the lists, and the names and meanings in
-    the lists."""
+    """A command as its help describes it, with its subcommands. Members: `path`, the words that call it, empty for the
+    program itself; `begin`, the text before the usage; `rest`, the text after the lists; `options`, pairs of name and
+    meaning of its options and positionals; `commands`, its subcommands as Command. A subcommand whose help fails, such
+    as one in Python that lacks a package, has only a text that refers to its help."""
 
     def __init__(self, program, path=""):
         words = [program, *path.split(), "--help"]
@@ -64,13 +73,16 @@ class Command:
                 entries, self.rest = None, self.rest + line + "\n"
         self.commands = [Command(program, f"{path} {name}".strip()) for name, _ in self.commands]
 
+    # Yields all commands below this one, each followed by its own subcommands.
     def all(self):
         for command in self.commands:
             yield command
             yield from command.all()
 
     def lists(self):
-        """For each option and positional its long names (none for a positional) and its description."""
+        """Yields, for each option and positional, its long names and the kind of its value. A positional has no names.
+        The kind is the first word after the names, such as FILE, or a list of choices such as all|none. An option
+        without a value has an empty kind or a remark of the help, such as Excludes."""
         for name, _ in self.options:
             names, _, rest = name.partition(" ")
             is_option = name.startswith("-")
@@ -78,11 +90,14 @@ class Command:
             yield [each for each in names.split(",") if each.startswith("--")] if is_option else [], kind
 
 
+# Escapes a text for a manual page: backslashes and hyphens, and a dot or apostrophe at the start of a line, which would
+# be a command of roff.
 def roff(words):
     words = words.replace("\\", "\\e").replace("-", "\\-")
     return re.sub(r"^([.'])", r"\\&\1", words, flags=re.M)
 
 
+# Returns the text of the manual page. `program` is the Command of the program itself.
 def man_page(program, version):
     def section(command):
         text = f".PP\n.nf\n{roff(command.begin.strip())}\n.fi\n"
@@ -97,6 +112,7 @@ def man_page(program, version):
     return text + f".SH EXIT STATUS\n{roff(program.rest)}"
 
 
+# Returns the script for bash. For each command it has the words that may follow, and how other words are completed.
 def completion(program):
     values, known = "", ""
     for command in [program, *program.all()]:

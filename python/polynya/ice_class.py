@@ -1,30 +1,37 @@
-"""Resistance in a channel of brash and minimum power by the Finnish-Swedish ice class rules, to compare with.
+"""Resistance in a channel of brash, and the minimum power that follows from it, by the Finnish-Swedish ice class rules.
+Computed resistances are compared with them (docs/brash.md); the simulation uses none of these formulas.
 
-The rules' text could not be read; coefficients and terms are [FSICR] (recall). SI units, angles in radians. The
-simulation uses none of it."""
+The rules' text could not be read. All coefficients and limits here are from memory ([FSICR], recall), so compare them
+with the rules before basing a decision on them. SI units, angles in radians. Symbols such as R_ch are those of the
+rules."""
 import dataclasses
 import math
 
 from .formulas import KNOT
 
-SPEED = 5 * KNOT  # of the requirement [m/s]
-THICKNESS = {"IA": 1.0, "IB": 0.8, "IC": 0.6}  # H_M of the classes: brash in the middle of the channel [m]
-SUPER = "IA Super"  # 1.0 m of brash under a frozen layer of 0.1 m
-LEAST_POWER = {SUPER: 2.8e6, "IA": 1e6, "IB": 1e6, "IC": 1e6}  # [W]
-# K_e by the number of propellers, of fixed pitch and of controllable pitch or electric drive [kW m / kN^(3/2)].
+SPEED = 5 * KNOT  # speed that a ship must keep in the channel [m/s]
+THICKNESS = {"IA": 1.0, "IB": 0.8, "IC": 0.6}  # H_M by class: thickness of the brash in the middle of the channel [m]
+# The class above IA: the brash of class IA under a frozen layer of 0.1 m. It is not in THICKNESS, because the
+# simulation has no frozen layer to compare with.
+SUPER = "IA Super"
+# Power that the rules require at least, whatever the resistance is [W]. minimum_power() does not apply it.
+LEAST_POWER = {SUPER: 2.8e6, "IA": 1e6, "IB": 1e6, "IC": 1e6}
+# K_e by the number of propellers, for fixed pitch, and for controllable pitch or electric drive [kW m / kN^(3/2)]. The
+# required power is proportional to it.
 FACTORS = {"fixed": {1: 2.26, 2: 1.60, 3: 1.31}, "controllable": {1: 2.03, 2: 1.44, 3: 1.18}}
-BOW, SIDE, SPEED_TERM = 845, 42, 825  # C_3 and C_4 [N/m³], C_5 [N/m]: C_3, C_4 with brash in m, C_5 with areas in m²
+# Coefficients of the three terms of ChannelResistance: C_3 of the bow [N/m³], C_4 of the midbody [N/m³], and C_5 of the
+# waterplane [N/m]. Each term is proportional to its coefficient.
+BOW, SIDE, SPEED_TERM = 845, 42, 825
 
 
 @dataclasses.dataclass(frozen=True)
 class ChannelResistance:
-    """Terms of R_ch [N]: brash pushed aside and down by the bow, brash along the parallel midbody, the term that grows
-    with the waterplane of the bow, and the frozen layer of class IA Super."""
+    """Terms of the resistance R_ch of a ship in a channel at 5 knots [N]; `total` is their sum."""
 
-    bow: float
-    midbody: float
-    waterplane: float
-    frozen: float = 0.0
+    bow: float  #: brash that the bow pushes aside and down
+    midbody: float  #: brash along the parallel midbody
+    waterplane: float  #: term that is proportional to the area of the bow's waterplane
+    frozen: float = 0.0  #: frozen layer of class IA Super; 0 for the other classes
 
     @property
     def total(self):
@@ -32,12 +39,15 @@ class ChannelResistance:
 
 
 def displaced_thickness(middle, beam):
-    """H_F, the thickness of the brash that a hull of that beam has pushed aside [m], by the thickness in the middle."""
+    """Returns H_F, the thickness of the brash beside a hull, which has pushed the brash aside [m]. `middle` is H_M, the
+    thickness in the middle of the channel [m], and `beam` that of the hull [m]."""
     return 0.26 + math.sqrt(middle * beam)
 
 
 def channel_resistance(hull, middle, is_frozen=False):
-    """R_ch of a hull with a wedge bow in brash of the thickness H_M in the middle of the channel [m]."""
+    """Returns the terms of R_ch as ChannelResistance. `hull` is a formulas.Hull, whose bow is a wedge, and `middle` is
+    H_M, the thickness of the brash in the middle of the channel [m]. With `is_frozen` the frozen layer of class IA
+    Super is added. The limits of the factors below (0.45, 0, and 5 to 20) are those of the rules."""
     beam, stem, entrance = hull.beam, hull.stem, hull.entrance
     displaced = displaced_thickness(middle, beam)
     flare = math.atan(math.tan(stem) / math.sin(entrance))  # ψ
@@ -51,7 +61,8 @@ def channel_resistance(hull, middle, is_frozen=False):
 
 
 def frozen_layer(hull):
-    """C_1 + C_2, the level ice resistance of a frozen layer of 0.1 m at 5 knots [N]."""
+    """Returns C_1 + C_2, the resistance of a frozen layer of 0.1 m at 5 knots [N]. Thickness and speed are contained in
+    the coefficients. The result agrees with [Riska1997] for level ice of that thickness (docs/brash.md)."""
     beam, stem = hull.beam, math.degrees(hull.stem)
     fixed = 23 * beam * hull.parallel / (2 * hull.draught / beam + 1)
     fixed += (1 + 0.021 * stem) * (45.8 * beam + 14.7 * hull.bow + 29 * beam * hull.bow)
@@ -61,6 +72,7 @@ def frozen_layer(hull):
 
 
 def minimum_power(resistance, diameter, propellers, pitch="fixed"):
-    """The power that a resistance R_ch [N] asks of propellers of that diameter [m], K_e R_ch^(3/2) / D_P [W]; without
-    the least power of the class."""
+    """Returns the power that the rules require for a resistance R_ch [N], K_e R_ch^(3/2) / D_P [W]. `diameter` is that
+    of a propeller [m], `propellers` their number (1 to 3) and `pitch` a key of FACTORS. The result may be below
+    LEAST_POWER, which is not applied here."""
     return 1e3 * FACTORS[pitch][propellers] * (1e-3 * resistance) ** 1.5 / diameter

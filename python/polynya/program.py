@@ -1,15 +1,18 @@
-"""Finds the program `polynya`."""
+"""Finds and starts the program `polynya`, which is written in C++."""
 import os
 import sys
 
 
 def program():
-    """Returns the path of the program: POLYNYA_PROGRAM if it is set, otherwise that of this package's wheel, build or
-    installation, otherwise the first on the search path."""
+    """Returns the path of the program. The environment variable POLYNYA_PROGRAM is used if it is set. Otherwise the
+    program is searched beside this package: in a wheel, a build folder and an installation, in this order. If it is in
+    none of them, the result is the bare name, which the system searches in PATH when the program is started."""
     given = os.environ.get("POLYNYA_PROGRAM")
     if given:
         return given
-    above = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))  # folder of the package; links are not resolved
+    above = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    # `above` is the folder that contains the package. Links are not resolved, because the package in a build folder is
+    # a link into the source tree, where there is no program.
     for place in (("polynya", "bin", "polynya"), ("..", "app", "polynya"), ("..", "..", "..", "bin", "polynya")):
         found = os.path.normpath(os.path.join(above, *place))
         if os.access(found, os.X_OK):
@@ -18,7 +21,8 @@ def program():
 
 
 def main():
-    """The command `polynya` of a wheel. Its Python commands use the Python in which the wheel is installed."""
+    """The command `polynya` of a wheel: replaces this process by the program, with the same arguments. Commands that
+    are written in Python use the Python in which the wheel is installed, unless POLYNYA_PYTHON names another one."""
     os.environ.setdefault("POLYNYA_PYTHON", sys.executable)
     own = program()
     os.execv(own, [own] + sys.argv[1:])

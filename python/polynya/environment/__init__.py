@@ -5,8 +5,12 @@
     observation, info = environment.reset(seed=3)
     observation, reward, terminated, truncated, info = environment.step((1.0, 0.1))
 
-Gymnasium itself is not needed: where it is installed, ShipInIce is one of its environments and has its spaces, and
-gymnasium.make("polynya/ShipInIce-v0") makes one once this module is imported.
+Here `goal` is a position x, y [m], and the action is lever and steering angle, each from -1 to 1. ShipsInIce steps
+several such environments at once. Change has the changes in one step, from which a reward is computed.
+
+Gymnasium itself is not needed (HAS_GYMNASIUM is False without it). If it is installed, ShipInIce is one of its
+environments and has its spaces. Importing this module then registers the class under the name ID, so that
+gymnasium.make("polynya/ShipInIce-v0") makes one.
 """
 from .default_scene import default_scene
 from .registration import ID, register

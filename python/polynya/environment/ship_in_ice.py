@@ -1,4 +1,4 @@
-"""A ship that an agent steers through ice."""
+"""ShipInIce: a ship that an agent steers through ice, as an environment of Gymnasium (docs/environment.md)."""
 from __future__ import annotations
 
 import copy
@@ -12,25 +12,29 @@ import polynya
 from .default_scene import default_scene
 from .spaces import Box, Dict, Env
 
+# Colours of render() as red, green and blue from 0 to 255: water, ice, other ships and structures, and the own ship.
 _COLOURS = (143, 184, 208), (255, 255, 255), (122, 92, 46), (43, 43, 43)
 WATER, ICE, OTHERS, OWN = (numpy.array(colour, dtype=float) for colour in _COLOURS)
-MOST_SEED = 2**31
-FLOE_COLUMNS = 7  #: number of columns of Simulation.nearest_floes
+MOST_SEED = 2**31  #: random seeds of scenes are below this value
+FLOE_COLUMNS = 7  #: number of columns of Simulation.nearest_floes; must be equal to it
 
 
 class Change(typing.NamedTuple):
     """Changes in one step, from which rewards are computed."""
 
     progress: float  #: distance gained towards the goal, or along the initial heading without a goal [m]
-    ice_work: float  #: energy that the ship lost to the ice in the step [J]: minus mean force times mean velocity
-    seconds: float  #: simulated time [s]
-    reached: bool  #: true if the goal was reached
+    #: Energy that the ship lost to contacts with ice in the step [J]: minus the mean forces and yaw moment times the
+    #: mean velocities and yaw rate, in the ship's frame at the end of the step. Ice under the hull is not in it.
+    ice_work: float
+    seconds: float  #: simulated time of the step [s]
+    reached: bool  #: true if the ship is within the radius of the goal after the step; false without a goal
     ship: polynya.Ship  #: ship after the step; its forces are means of the step
     events: list  #: events of the step, as in the lines of events.ndjson
 
 
 def metres_less_work(change):
-    """The default reward: distance gained [m], minus 1 m per megajoule of work of the ice."""
+    """The default reward of a step: the distance gained [m], minus 1 m for each megajoule that the ship lost to the
+    ice."""
     return change.progress - 1e-6 * change.ice_work
 
 
@@ -39,11 +43,18 @@ class ShipInIce(Env):
 
     scene: anything that polynya.Scene accepts, or a callable that makes a scene from a seed; default_scene if not
     given. For a scene that is no callable, reset(seed) replaces its `seed`, from which random fields of floes are
-    drawn. ship: index or name. goal: x, y [m], which counts as reached within `goal_radius` [m]; without a goal the
-    ship is to go along its initial heading. seconds: simulated time per step [s], a whole number of the scene's ticks
-    (time.step_s). shape, cell_m, ahead_m: of the image, as in Simulation.occupancy. floes: number of floes, for an
-    observation of the nearest floes instead of the image. time_limit: simulated time [s]; the scene's until_s if not
-    given. reward: a callable that computes the reward from a Change.
+    drawn.
+    ship: index or name of the ship to steer.
+    goal: x, y in the world [m], which counts as reached when the ship is within `goal_radius` [m]; without a goal the
+    ship is to go along its initial heading.
+    seconds: simulated time per step [s], a whole number of the scene's ticks (time.step_s).
+    shape, cell_m, ahead_m: rows and columns of the image, size of a cell [m], and distance of the image's centre ahead
+    of the ship's centre of gravity [m], as in Simulation.occupancy.
+    floes: number of floes, for an observation of the nearest floes instead of the image.
+    time_limit: simulated time at which an episode is truncated [s]; the scene's until_s if not given.
+    reward: a callable that computes the reward from a Change.
+    threads: number of threads of the simulation.
+    render_mode: "rgb_array" if render() is used, otherwise None.
 
     Action: lever and steering angle, each from -1 to 1, the angle as a fraction of the largest, positive to port. Both
     move as fast as the scene's ship allows. Observation: "image", 2 x rows x columns: fractions of each cell that ice,
@@ -77,8 +88,9 @@ class ShipInIce(Env):
         self.simulation = None
 
     def reset(self, *, seed=None, options=None):
-        """Starts a new simulation with the scene's seed `seed`, or a random one if it is None. Returns the observation
-        and info with `scene_seed` and `time_s`."""
+        """Starts a new simulation with the scene's seed `seed`, or a random one if it is None; `options` are ignored.
+        Lever and steering begin at 0. Returns the observation, and info with `scene_seed` and `time_s`. Raises
+        ValueError if a step is no whole number of ticks."""
         super().reset(seed=seed)
         self.scene_seed = int(self.np_random.integers(MOST_SEED)) if seed is None else seed
         given = self._make_scene(self.scene_seed)
@@ -101,8 +113,10 @@ class ShipInIce(Env):
         return self._observation(), {"scene_seed": self.scene_seed, "time_s": self.simulation.time}
 
     def step(self, action):
-        """Steps with an action. Returns the observation, the reward, whether the goal is reached, whether the time is
-        over, and info with `time_s`, `progress_m`, `ice_work_J` and `events`."""
+        """Sets lever and steering to an action, whose numbers are limited to -1 and 1, and simulates one step. Returns
+        the observation, the reward, whether the goal is reached, whether the time is over, and info with `time_s`,
+        `progress_m`, `ice_work_J` and `events`. Raises ValueError for an action that is not two finite numbers, and
+        SimulationError if the run cannot continue."""
         if self.simulation is None:
             raise RuntimeError("reset() comes before the first step()")
         wanted = numpy.asarray(action, dtype=float)
@@ -118,6 +132,7 @@ class ShipInIce(Env):
         is_over = self.simulation.time >= self._end - 1e-9
         return self._observation(), float(self._reward(change)), change.reached, is_over, info
 
+    # Returns the Change from the state of the ship `before` the step to the present one.
     def _change(self, before):
         after, forces = self._now, self._now.forces
         if self.goal is None:
@@ -132,6 +147,7 @@ class ShipInIce(Env):
         work = -self.seconds * (forces["surge_N"] * surge + forces["sway_N"] * sway + forces["yaw_Nm"] * turning)
         return Change(progress, float(work), self.seconds, reached, after, self.simulation.events())
 
+    # Returns the observation of the present state, as the docstring of the class describes it.
     def _observation(self):
         ship = self._now
         to_goal = (0.0, 0.0) if self.goal is None else _in_ship(self.goal - ship.position, ship.heading)
@@ -142,7 +158,8 @@ class ShipInIce(Env):
         return {**ice, "ship": numpy.array(state, dtype=numpy.float32)}
 
     def render(self):
-        """Returns the image in colours, with the ship: rows x columns x 3 bytes."""
+        """Returns the image in colours, with the ship: rows x columns x 3 bytes. None without a render_mode. The image
+        is drawn even if the observation has floes instead."""
         if self.render_mode is None:
             return None
         ice, others = self.simulation.occupancy(self._ship, **self._view)
@@ -152,7 +169,8 @@ class ShipInIce(Env):
         return picture.astype(numpy.uint8)
 
     def _own_hull(self):
-        """Cells whose centre is inside the ship's waterline."""
+        """Returns a mask of the image's cells whose centre is inside the ship's waterline. It is computed once per
+        reset, because the image turns with the ship."""
         if self._waterline is None:
             from matplotlib.path import Path
 
@@ -169,7 +187,7 @@ class ShipInIce(Env):
 
 
 def _seeded(scene):
-    """Makes the scene with another seed."""
+    """Returns a callable that makes the resolved scene with another seed."""
     resolved = scene.resolved
     return lambda seed: {**resolved, "seed": seed}
 
@@ -180,6 +198,6 @@ def _largest_angle(ship):
 
 
 def _in_ship(vector, heading):
-    """Components of a vector ahead and to port of the ship."""
+    """Returns the components ahead and to port of a vector in the world, for a heading [rad]."""
     c, s = numpy.cos(heading), numpy.sin(heading)
     return float(c * vector[0] + s * vector[1]), float(-s * vector[0] + c * vector[1])

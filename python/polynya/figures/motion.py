@@ -1,4 +1,4 @@
-"""Speed, heading and course of every ship."""
+"""The figure `motion`: speed, heading and course over ground of every ship, over time."""
 from __future__ import annotations
 
 import numpy
@@ -7,25 +7,34 @@ from matplotlib.lines import Line2D
 from .page import Page, Sheet, plain
 from .subjects import all_labelled, colour_of, dash_of, mark_fractures, once, subjects_of
 
-SLOW = 0.02  # below this speed noise determines the course [m/s]
+# A ship that is slower than this has no course in the figure [m/s], because noise of its velocity would determine its
+# direction. Larger: more gaps in the curve of the course; smaller: the curve jumps where a ship stops.
+SLOW = 0.02
+# A curve with at least twice as many rows as this is thinned to every second, third, … row. Larger: larger files
+# without a visible difference; smaller: short peaks may be missed.
 MOST_POINTS = 1500
-COURSE = (0, (1, 1.2))
+COURSE = (0, (1, 1.2))  # dash pattern of the course (matplotlib's form), to distinguish it from the heading
 
 
 def course_of(vx, vy, heading):
-    """Direction of motion [deg] near the heading; both count full turns. NaN where noise determines it."""
+    """Returns the direction of motion over ground [deg] for arrays of velocity [m/s] and heading [deg], NaN below SLOW.
+    Like the heading it counts full turns: the result is within 180° of the heading, so that both curves stay near each
+    other when a ship turns around several times."""
     angle = numpy.degrees(numpy.arctan2(vy, vx))
     angle = angle + 360 * numpy.round((heading - angle) / 360)
     return numpy.where(numpy.hypot(vx, vy) < SLOW, numpy.nan, angle)
 
 
 def moving(runs):
-    """Ships of the runs; their structures if there is no ship."""
+    """Returns the subjects to draw: the ships of all runs, or their structures if no run has a ship."""
     subjects = subjects_of(runs)
     ships = [s for s in subjects if s.ship in {ship["name"] for ship in s.of.run.scene.get("ships", [])}]
     return ships or subjects
 
 
+# Draws the speed in one panel, and heading and course in the other; each ship has a colour. If there is only one ship,
+# its cusps and splits are marked along the top. `runs` are runs, or Labelled ones with their own names and range of
+# times. Returns the figure, or None if there is neither a ship nor a structure, or if no run has a duration.
 def draw(runs, page=Page()):
     runs = all_labelled(runs)
     subjects = moving(runs)

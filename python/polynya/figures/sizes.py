@@ -1,4 +1,5 @@
-"""Number of floes, and fraction of the ice, in floes of at least a given size."""
+"""The figure `sizes`: number of floes of at least each size, and their fraction of the ice, at the start and at the end
+of each run."""
 from __future__ import annotations
 
 import numpy
@@ -9,8 +10,9 @@ from .subjects import all_labelled, colour_of
 
 
 def sizes_at(run, time):
-    """Sizes √area of the floating floes in ascending order [m], the number of floes of at least each size, and their
-    percentage of the ice."""
+    """Returns three arrays for the floes that float at a time [s], in ascending order of size: the size √area [m], the
+    number of floes of at least that size, and their percentage of the area of all floating floes. Pieces under hulls
+    are left out. The arrays are empty if no floe floats."""
     births = run.births
     is_afloat = (births["born_s"] <= time) & (time < births["died_s"]) & (time < births["went_under_s"])
     areas = numpy.sort(births["area_m2"][is_afloat])
@@ -19,6 +21,8 @@ def sizes_at(run, time):
     return numpy.sqrt(areas), numpy.arange(len(areas), 0, -1), 100 * (1 - below / areas.sum()) if len(areas) else areas
 
 
+# Draws both panels, with a colour for each run; its start is dashed and its end is solid. `runs` are runs, or Labelled
+# ones with their own names and range of times. Returns the figure, or None if no floe floats at any of these times.
 def draw(runs, page=Page()):
     runs = all_labelled(runs)
     with Sheet(page, "Floe sizes", f"{', '.join(run.label for run in runs)}; size is the root of the area.") as sheet:

@@ -1,4 +1,4 @@
-"""Ships and structures of runs with their names and colours, and the range of time that is drawn."""
+"""Subjects of figures: the ships and structures of runs, with names, colours, and the range of time that is drawn."""
 from __future__ import annotations
 
 import dataclasses
@@ -6,11 +6,11 @@ import dataclasses
 import numpy
 from matplotlib.lines import Line2D
 
-#: Colours of runs: black, vermilion, sky blue, blue, purple, green [Okabe2008]. The first three also differ in
-#: greyscale.
+#: Colours of runs or subjects in their order: black, vermilion, sky blue, blue, purple, green [Okabe2008]. The first
+#: three also differ in greyscale.
 COLOURS = ("#000000", "#d55e00", "#56b4e9", "#0072b2", "#aa4499", "#009e73")
-DASHES = ("-", "--", "-.")
-CUSP, SPLIT = "#555555", "#d55e00"
+DASHES = ("-", "--", "-.")  #: line styles; the next one is used when all colours have been used
+CUSP, SPLIT = "#555555", "#d55e00"  #: colours of the marks of cusps and of splits
 
 
 @dataclasses.dataclass(frozen=True)
@@ -24,8 +24,9 @@ class Labelled:
 
 
 def labelled(run, label=None, start=None, end=None):
-    """Returns a run with the name of its scene and its whole time, unless given otherwise. Raises ValueError for times
-    outside of the run."""
+    """Returns a run as Labelled, with the name of its scene and its whole time unless `label`, `start` or `end` [s] is
+    given. Raises ValueError, with a message that names the options --from and --until, if a time is outside of the run
+    or `start` is not before `end`. A run without a duration is accepted."""
     for word, time in (("--from", start), ("--until", end)):
         if time is not None and not run.start_time <= time <= run.end_time:
             raise ValueError(f"{word} {time:g}: {run.folder} goes from {run.start_time:g} to {run.end_time:g} s")
@@ -35,31 +36,34 @@ def labelled(run, label=None, start=None, end=None):
     return Labelled(run, run.name if label is None else label, start, end)
 
 
+# Returns runs as Labelled. A run that already is Labelled keeps its name and times.
 def all_labelled(runs):
     return [run if isinstance(run, Labelled) else labelled(run) for run in runs]
 
 
 @dataclasses.dataclass(frozen=True)
 class Subject:
-    """A ship or structure of one of the runs."""
+    """A ship or structure of one of the runs; `ship` is its name."""
 
     of: Labelled
     ship: str
 
     @property
     def name(self):
-        """Name of the run, and of the ship if the run has several."""
+        """Name in legends: that of the run, and also that of the ship if the run has several."""
         return self.of.label if len(self.of.run.ship_names) == 1 else f"{self.of.label}, {self.ship}"
 
     def columns(self, *names):
-        """Columns of forces.csv within the range of times; NaN if a run of an older version does not have them."""
+        """Returns these columns of forces.csv as arrays, for the rows of the ship within the range of times. A column
+        that a run of an older version does not have is NaN."""
         forces = self.of.run.force_columns
         rows = (forces["ship"] == self.ship) & (forces["t_s"] >= self.of.start) & (forces["t_s"] <= self.of.end)
         return [forces[name][rows] if name in forces else numpy.full(numpy.count_nonzero(rows), numpy.nan)
                 for name in names]
 
     def fractures(self, kind):
-        """Times of the ship's cusps ("bend") or splits."""
+        """Returns the times [s], within the range, at which the ship broke ice in one way: `kind` is "bend" for cusps
+        or "split" for split floes."""
         events = self.of.run.event_columns
         times = events["t_s"]
         is_within = (times >= self.of.start) & (times <= self.of.end)
@@ -67,10 +71,11 @@ class Subject:
 
 
 def subjects_of(runs):
-    """All subjects of runs; None if a run has no duration."""
+    """Returns all subjects of Labelled runs. A run without a duration is left out, because it has no curves."""
     return [Subject(run, ship) for run in runs for ship in run.run.ship_names if run.start < run.end]
 
 
+# Colour and line style of the subject with this number, from 0. Together they repeat after 18 subjects.
 def colour_of(number):
     return COLOURS[number % len(COLOURS)]
 
@@ -80,8 +85,10 @@ def dash_of(number):
 
 
 def mark_fractures(axes, subject, scale):
-    """Draws strokes for cusps and triangles for splits along the top of a panel. Returns the legend entries for those
-    that exist."""
+    """Marks the cusps and splits of a subject in a panel over time: a short stroke at the top for each cusp, and for
+    each split a triangle there with a thin line down to the bottom. `scale` is that of the page's style. Returns the
+    legend entries of the kinds that occur. From 150 cusps on the strokes are half transparent, so that dense ones can
+    still be distinguished."""
     handles = []
     across = axes.get_xaxis_transform()
     cusps, splits = subject.fractures("bend"), subject.fractures("split")
@@ -99,5 +106,5 @@ def mark_fractures(axes, subject, scale):
 
 
 def once(handles):
-    """Removes legend entries whose label occurred before."""
+    """Returns the legend entries without those whose label occurred before."""
     return list({handle.get_label(): handle for handle in reversed(handles)}.values())[::-1]

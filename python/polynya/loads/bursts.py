@@ -1,59 +1,70 @@
 """Peaks of a record as independent events.
 
 Peaks of one jam follow each other. Counted as independent, they would suggest more information than the record has. So
-peaks that are closer in time than a gap form one event, and its largest peak counts. The gap is the shortest one for
-which the events pass two tests: their numbers in the parts of the record vary only as much as chance explains, and so
-do their sizes."""
+successive peaks of a run that are at most a gap apart form one event, a burst, of which only the largest peak counts.
+The gap is the shortest one for which the events pass two tests: their numbers in the parts of the record vary only as
+much as chance explains, and so do their sizes. The record is that of one or several runs (cases)."""
 from __future__ import annotations
 
 import dataclasses
 
 import numpy
 
-PARTS = 20  #: least number of parts of the record in which events are counted
-HALVINGS = 6  #: the shortest gap is the length of a part, halved this number of times
-SIMULATED = 499  #: number of samples of a test
-COVERED = 0.25  #: largest fraction of a run's time that bursts and the gaps after them may cover [-]
-UNLIKE = 0.01  #: p values below this mean that parts of the record differ
+#: Least number of parts into which the whole record is divided to count events. More parts show shorter clusters, but
+#: have fewer events each, so that the test finds less.
+PARTS = 20
+#: Gaps are tried from the length of a part halved this number of times (1/64), and doubled up to the whole part.
+#: Larger: shorter gaps are tried first, which keep more events.
+HALVINGS = 6
+#: Number of random samples of a test. The smallest p value is 1/500. More samples: p is more exact and takes longer.
+SIMULATED = 499
+#: Largest fraction of a run's time that bursts and the gaps after them may cover [-]. Larger: long gaps may join peaks
+#: that are independent; smaller: gaps with which the tests would pass may not be allowed.
+COVERED = 0.25
+UNLIKE = 0.01  #: with a p value below this, parts of the record differ, and a fit to the events is refuted
 
 
 @dataclasses.dataclass(frozen=True)
 class Record:
-    """Peaks in the order of their cases and times. `starts` and `lengths` are those of the cases [s]."""
+    """The peaks of all cases, in the order of cases and times, and the durations of the cases."""
 
-    cases: numpy.ndarray  #: index of the case of each peak in the lists below
-    times: numpy.ndarray  #: [s]
-    forces: numpy.ndarray  #: [N]
-    starts: numpy.ndarray
-    lengths: numpy.ndarray
+    cases: numpy.ndarray  #: for each peak the index of its case in `starts` and `lengths`
+    times: numpy.ndarray  #: for each peak its time in its case [s]
+    forces: numpy.ndarray  #: for each peak its force [N]
+    starts: numpy.ndarray  #: for each case the time from which peaks count [s]
+    lengths: numpy.ndarray  #: for each case the duration from then on [s]
 
+    # Length of the whole record [h].
     @property
     def hours(self):
         return float(self.lengths.sum()) / 3600
 
+    # Number of parts of each case, so that there are at least PARTS in total: 20 for one case, 1 from 20 cases on.
     @property
     def parts_of_case(self):
         return max(1, -(-PARTS // max(1, len(self.lengths))))
 
     def part_of(self, cases, times):
-        """The part of the record in which each event is. All cases are divided into equal parts, at least PARTS in
-        total."""
+        """Returns for each event the number of the part of the record in which it is, from 0. Each case is divided into
+        `parts_of_case` parts of equal length."""
         parts = self.parts_of_case
         share = (times - self.starts[cases]) / self.lengths[cases]
         return cases * parts + numpy.clip((share * parts).astype(int), 0, parts - 1)
 
+    # Length of each part [s], by its number.
     @property
     def part_lengths(self):
         return numpy.repeat(self.lengths / self.parts_of_case, self.parts_of_case)
 
     def gaps(self):
-        """Gaps to try [s]: none, then from 1/64 of a part of the record to a whole part."""
+        """Returns the gaps to try [s], shortest first: 0, then from 1/64 of a part of the longest case to the whole
+        part, each twice as long as the one before."""
         part = float(self.lengths.max()) / self.parts_of_case
         return [0.0, *(part / 2**k for k in range(HALVINGS, -1, -1))]
 
 
 def record_of(loads):
-    """Returns the peaks of the gathered cases that have a length."""
+    """Returns the Record of a gather.Loads. Cases that end before the first time that counts are left out."""
     cases = [case for case in loads.cases if case.hours > 0]
     numbers = numpy.array([case.number for case in cases], dtype=int)
     place = {number: at for at, number in enumerate(numbers.tolist())}
@@ -70,19 +81,23 @@ class Events:
 
     forces: numpy.ndarray  #: [N]
     gap: float  #: [s]
-    counts_p: float  #: p value of their numbers in parts of the record
-    sizes_p: float  #: p value of their sizes in its cases or parts
+    #: p value of their numbers in the parts of the record. If cases are divided into parts, the numbers in whole cases
+    #: are tested too, and the smaller p value counts.
+    counts_p: float
+    sizes_p: float  #: p value of their sizes: in the cases if there are several, otherwise in the parts
     #: Fraction of a run's time that bursts and the gaps after them cover, in the run where it is largest.
     covered: float
 
+    # True if neither test finds that parts of the record differ.
     @property
     def are_alike(self):
         return min(self.counts_p, self.sizes_p) >= UNLIKE
 
 
 def counts_p(counts, lengths, rng):
-    """Fraction of simulations in which as many events at random times are distributed over parts of these lengths at
-    least as unevenly (chi-squared distance)."""
+    """Returns the p value of the numbers of events in parts of these lengths [s]: the fraction of SIMULATED samples,
+    with the same number of events at random times, that are at least as uneven (chi-squared distance). 1 without
+    events."""
     total, share = int(counts.sum()), lengths / lengths.sum()
     if total == 0:
         return 1.0
@@ -94,8 +109,9 @@ def counts_p(counts, lengths, rng):
 
 
 def sizes_p(forces, groups, rng):
-    """Fraction of random assignments of the events to the groups in which the groups differ at least as much (Kruskal
-    and Wallis's distance of ranks)."""
+    """Returns the p value of the sizes of events in groups: the fraction of random assignments of the events to the
+    groups in which the groups differ at least as much (Kruskal and Wallis's distance of ranks). `groups` has the number
+    of the group of each event. The result is 1 if there is only one group, or if each group has one event."""
     _, groups = numpy.unique(groups, return_inverse=True)
     number = numpy.bincount(groups)
     if len(number) < 2 or number.max() < 2:
@@ -111,7 +127,8 @@ def sizes_p(forces, groups, rng):
 
 
 def events_above(record, threshold, gap, seed=0):
-    """Returns the events of the peaks above a threshold for a gap, with the results of the tests."""
+    """Returns the Events of the peaks above a threshold [N] for a gap [s], with the results of the tests, which depend
+    on `seed` through their random samples."""
     above = record.forces > threshold
     cases, times, forces = record.cases[above], record.times[above], record.forces[above]
     is_first = numpy.ones(len(times), dtype=bool)
@@ -133,9 +150,12 @@ def events_above(record, threshold, gap, seed=0):
 
 
 def independent(record, threshold, least, seed=0):
-    """Returns the events for the shortest gap with which they pass the tests. If there is none, it is the longest gap
-    that leaves `least` events; if there are fewer events from the start, returns None. Bursts may cover at most COVERED
-    of each run, because longer ones would join peaks that are independent, and would hide differences between runs.
+    """Returns the Events above a threshold [N] for the shortest gap with which they pass the tests. If there is no such
+    gap, the longest allowed one is used, and the p values of the result tell that it fails. A gap is allowed if it
+    leaves `least` events, and if bursts cover at most COVERED of each run, because longer bursts would join peaks that
+    are independent, and would hide differences between runs. Returns None if even the gap 0 leaves fewer
+    than `least` events.
+
     With at least PARTS runs, a burst may be a whole run. The largest peak of each run is then the event; such events
     are independent if the runs differ only in their seeds."""
     best = None

@@ -1,4 +1,6 @@
-"""Figures of ice loads by place, for print."""
+"""The figures of `polynya loads`: exceedance of peaks with the fitted tail, pressure over area, and loads by place.
+`loads` is a gather.Loads, `found` an estimate.Estimate, `fit` an estimate.Fit and `tail` an extremes.Tail. A function
+that draws a figure returns None if there is nothing to draw."""
 from __future__ import annotations
 
 import numpy
@@ -11,25 +13,31 @@ from polynya.figures.page import Page, Sheet, set_log
 from . import estimate, rules, words
 
 BLACK, RED, BLUE, GREEN, PURPLE = "#000000", "#d55e00", "#0072b2", "#009e73", "#cc79a7"  # [Okabe2008]
-KINDS = (BLACK, RED, BLUE, GREEN, PURPLE, "#e69f00")
+KINDS = (BLACK, RED, BLUE, GREEN, PURPLE, "#e69f00")  # colours of kinds of runs; further kinds are grey
+# Colour and marker of a peak by what ended its contact: `ended_by` of contacts.csv (docs/run-folder.md).
 ENDS = {"bend": (BLUE, "o"), "split": (RED, "^"), "tilt": (GREEN, "s"), "slip": ("#888888", ".")}
-MOST_POINTS = 5000  # largest number of points of a scatter plot; the largest peaks are drawn
-BINS = 400  # number of time intervals of a raster
-REFUTED = {"color": "#777777", "linestyle": ":"}
-WIDEST = 5  # a fit is drawn up to this multiple of the largest peak
-HEIGHT = 70  # height of the panels of a figure [mm]
+# Largest number of points of the plot of pressure over area. Of more peaks, those with the largest force are drawn, and
+# a note states the number of the others. More points: larger files, which take longer to draw.
+MOST_POINTS = 5000
+BINS = 400  # number of time intervals of the raster of unrolled(); more: finer in time, but hard to see in print
+REFUTED = {"color": "#777777", "linestyle": ":"}  # line style of refuted fits
+# Largest force on the axis of exceedance(), as a multiple of the largest peak. An interval of a fit may reach much
+# farther; it then leaves the figure, so that the peaks remain legible.
+WIDEST = 5
+HEIGHT = 70  # height of the panels of most figures on paper [mm]
 
 
 def curve_of(tail, lowest):
-    """Rates from that of the threshold down to `lowest` [1/h], and the interval of the return value at each [MN]."""
+    """Returns the curve of a tail as four arrays: 60 rates from slightly less than that of the threshold down to
+    `lowest` [1/h], and the return value at each rate with the lower and upper end of its interval [MN]."""
     rates = numpy.geomspace(max(lowest, 1e-12), 0.95 * tail.rate.value, 60)[::-1]
     levels = [tail.level(1 / rate) for rate in rates]
     return rates, *(numpy.array([getattr(level, end) for level in levels]) / 1e6 for end in ("value", "low", "high"))
 
 
 def draw_fits(axes, found, lowest):
-    """Draws the fit in use with its interval, and refuted fits paler. Returns the legend entries and the upper end of
-    the interval [MN]."""
+    """Draws the fit in use with its interval, and refuted fits paler, down to the rate `lowest` [1/h]. Returns the
+    legend entries and the largest upper end of the interval [MN], 0 if no fit is in use."""
     handles, reach = [], 0.0
     refuted = [fit for fit in found.fits if fit is not found.used]
     for fit in refuted:
@@ -50,8 +58,8 @@ def draw_fits(axes, found, lowest):
 
 
 def why_of(fits):
-    """Describes what refutes fits: the largest p value of those that a test refutes, and the largest shape that is too
-    heavy."""
+    """Describes in a few words for the legend what refutes fits: the largest p value of those that a test refutes, and
+    the largest shape of those whose tail is too heavy."""
     tested = [min(fit.goodness_p, fit.events.counts_p, fit.events.sizes_p) for fit in fits if list(fit.refuting_tests)]
     heavy = [fit.tail.shape.value for fit in fits if fit.is_heavy]
     found = [f"p {max(tested):.2g}" + (" at most" if len(tested) > 1 else "")] if tested else []
@@ -59,14 +67,14 @@ def why_of(fits):
 
 
 def forces_of(fits):
-    """The smallest and the largest threshold."""
+    """Returns the range of the thresholds of fits, which are in ascending order, in words."""
     found = [words.force(fit.tail.threshold) for fit in fits]
     return " to ".join(dict.fromkeys((found[0], found[-1])))
 
 
 def draw_kind(axes, loads, found, lowest):
-    """Draws the peaks of one kind of runs with their confidence band, and the fits of their tail. Returns the legend
-    entries and the upper end of the fit in use [MN]."""
+    """Draws the peaks of one kind of runs with their confidence band, and the fits of their tail. `lowest` is the
+    lowest rate of the fits [1/h]. Returns the same as draw_fits()."""
     columns = estimate.exceedance(loads)
     force = columns["force_N"] / 1e6
     axes.fill_between(force, columns["per_hour_low"], columns["per_hour_high"], color=BLUE, alpha=0.25, linewidth=0)
@@ -77,8 +85,8 @@ def draw_kind(axes, loads, found, lowest):
 
 
 def draw_kinds(axes, estimates):
-    """Draws the peaks of each kind of runs. Returns legend entries for at most six kinds, those with the largest
-    peaks."""
+    """Draws the peaks of each kind of runs. The six kinds with the largest peaks have colours, the others are grey.
+    Returns the legend entries. `estimates` has (Loads, Estimate) by kind."""
     drawn = {kind: estimate.exceedance(of) for kind, (of, _) in estimates.items() if len(of.forces) > 1}
     largest = sorted(drawn, key=lambda kind: -drawn[kind]["force_N"][0])
     handles = []
@@ -95,8 +103,9 @@ def draw_kinds(axes, estimates):
 
 
 def exceedance(loads, estimates, page=Page()):
-    """Draws the number of peaks per hour above each force with its confidence band, and the fitted tail; for several
-    kinds of runs one line each."""
+    """Draws the number of peaks per hour above each force. For a single kind of runs it has its confidence band and the
+    fitted tail, down to a tenth of the rate of one peak per record. Several kinds have one line each, without fits.
+    None for fewer than two peaks."""
     if len(loads.forces) < 2 or not loads.hours:
         return None
     with Sheet(page, "Peaks exceeded", words.of_loads(loads)) as sheet:
@@ -118,7 +127,8 @@ def exceedance(loads, estimates, page=Page()):
 
 
 def draw_peaks(axes, loads, area, order, scale):
-    """Draws peaks by area and pressure, marked by what ended them. Returns the legend entries."""
+    """Draws peaks by area and pressure, marked by what ended them. `area` has the area of each peak [m²], `order` the
+    indices of the peaks to draw, and `scale` is that of the page's style. Returns the legend entries."""
     handles = []
     for end, (colour, marker) in ENDS.items():
         chosen = order[loads.peaks["ended_by"][order] == end]
@@ -130,8 +140,8 @@ def draw_peaks(axes, loads, area, order, scale):
 
 
 def draw_rules(axes, low, high):
-    """Draws the rules over areas [m²]. Returns the legend entries, and the smallest and largest pressure of the polar
-    classes [MPa]."""
+    """Draws the pressures by rules for areas from `low` to `high` [m²]. Returns the legend entries, and the smallest
+    and the largest pressure of the polar classes [MPa], which the axis should contain."""
     x, handles = numpy.geomspace(low, high, 200), []
     curves = [("ISO 19906, local", rules.iso_local_pressure(x), BLACK, "-")]
     curves += [(f"Polar Class {name[2:]}", rules.polar_class_pressure(x, name), PURPLE, dash)
@@ -167,7 +177,8 @@ def pressure_area(loads, page=Page()):
 
 
 def along(loads, page=Page()):
-    """Draws the loads of panels along the waterline."""
+    """Draws for each panel along the waterline the largest force, which is that of a peak or of a recorded panel, with
+    the mean force if panels were recorded, and the number of peaks per hour. None without loaded panels."""
     rows = estimate.panels(loads)
     if not rows:
         return None
@@ -188,8 +199,9 @@ def along(loads, page=Page()):
 
 
 def unrolled(loads, page=Page()):
-    """Draws the loads of the first case by place and time. The outline is unrolled from the stem, and each panel and
-    time is coloured by the largest force. Without recorded panels only peaks are used."""
+    """Draws the loads of the first case by place and time, as a raster of panels and BINS intervals of time. The
+    waterline is unrolled from the stem, and each cell is coloured by its largest force, over three powers of ten. If no
+    panels were recorded, the forces are those of peaks alone. None if the first case has no loads."""
     case = loads.cases[0]
     source = loads.panels if loads.panels else loads.peaks
     chosen = source["case"] == case.number
@@ -221,7 +233,8 @@ def unrolled(loads, page=Page()):
 
 
 def polar(loads, page=Page()):
-    """Draws the loads of a structure by the direction of each panel."""
+    """Draws the largest force and the number of peaks per hour by the direction of each panel from the middle of the
+    waterline, counter-clockwise from ahead. None for a ship with propulsion."""
     rows = estimate.panels(loads) if loads.is_fixed else []
     if not rows:
         return None
@@ -243,7 +256,7 @@ def polar(loads, page=Page()):
 
 
 def all_of(loads, estimates, page=Page()):
-    """Returns (name, description, figure or None) of each figure."""
+    """Yields (name, description, figure or None) of each figure. The name is a part of the file's name."""
     yield "exceedance", "Peaks exceeded per hour and per kilometre", exceedance(loads, estimates, page)
     yield "pressure-area", "Pressure over area, beside rules", pressure_area(loads, page)
     yield "along", "Panels along the waterline", along(loads, page)

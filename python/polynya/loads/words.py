@@ -1,4 +1,5 @@
-"""Results of `polynya loads` in sentences, for the terminal and for its page."""
+"""Results of `polynya loads` in sentences, for the terminal, its page and its figures. `loads` is a gather.Loads, `fit`
+an estimate.Fit, `found` an estimate.Estimate, and `given` an estimate.Answer for one return period."""
 import math
 import textwrap
 
@@ -7,20 +8,21 @@ from polynya.readable import force, in_hours as hours, plain
 
 from . import estimate
 
-WIDEST = 118  #: number of columns of a printed reason; longer ones continue on the next line
-MOST_KINDS = 12  #: largest number of kinds of runs whose answers are printed
+WIDEST = 118  #: largest width of a printed reason [characters]; longer ones continue on the next line
+MOST_KINDS = 12  #: largest number of kinds of runs whose answers are printed; loads-returns.csv contains all kinds
 
 
 def shape(value):
-    """A number with two decimals, without a minus sign before 0."""
+    """Returns the shape of a tail with two decimals, never as "-0.00"."""
     return f"{round(value, 2) + 0:.2f}"
 
 
 def span(low, high):
-    """An interval of forces; an end without a limit is open."""
+    """Returns an interval of forces [N] in words; an infinite upper end is "no limit"."""
     return f"{force(low)} to {force(high) if math.isfinite(high) else 'no limit'}"
 
 
+# Describes the fit in use: its peaks, threshold, gap, shape with interval, scale and p value.
 def of_fit(fit):
     tail, gap = fit.tail, fit.events.gap
     bursts = f", peaks within {gap:.3g} s of each other as one" if gap else ""
@@ -30,7 +32,7 @@ def of_fit(fit):
 
 
 def of_answer(given):
-    """Describes the value that is exceeded once in a period, or says that it is not given."""
+    """Describes the return value of a period with its interval, marked if extrapolated, or says that it is withheld."""
     if given.value_N is None:
         return "withheld"
     mark = ", EXTRAPOLATED" if given.is_extrapolated else ""
@@ -38,7 +40,8 @@ def of_answer(given):
 
 
 def reasons(answers, found):
-    """Reasons why values are not given or not reliable, each once, with the periods if not all are meant."""
+    """Yields the reasons why return values of one kind of runs are withheld, and a note if any is extrapolated. A
+    reason that concerns all periods (`found.why`) comes first; each other one is stated once, with its periods."""
     if found.why:
         yield found.why
     periods = {}
@@ -53,19 +56,20 @@ def reasons(answers, found):
 
 
 def of_seen(given):
-    """Describes the estimate from observed peaks without a fit."""
+    """Returns the interval of the return value that follows from the observed peaks without a fit."""
     return span(given.seen_low_N, given.seen_high_N)
 
 
 def of_record(given, half_width):
-    """Says how long a record must be; nothing without a fit that could tell it."""
+    """Says how long a record must be for an interval of ± `half_width`, a fraction of the value. If that length is not
+    known, states the length from which on a value is given; a dash without a fit that reaches the period."""
     if given.record_needed_h:
         return f"{hours(given.record_needed_h)} for ±{100 * half_width:g} %"
     return f"at least {hours(given.least_record_h)}" if given.least_record_h else "-"
 
 
 def of_loads(loads):
-    """Says how much was recorded."""
+    """Describes the record: the number of peaks, the ship, the runs, and the time and distance that count."""
     runs = len(loads.cases)
     kinds = f" of {len(loads.kinds())} kinds" if len(loads.kinds()) > 1 else ""
     reach = f", {loads.kilometres:.3g} km" if loads.kilometres > 1e-6 else ""
@@ -76,7 +80,8 @@ def of_loads(loads):
 
 
 def of_fits(found):
-    """Describes the refuted fits in one line, and the fit in use."""
+    """Yields a line for the refuted fits together, with the range of their thresholds, and a line for the fit in use;
+    neither if there is none."""
     rest = [fit for fit in found.fits if fit is not found.used]
     if rest:
         reach = dict.fromkeys(force(fit.tail.threshold) for fit in (rest[0], rest[-1]))
@@ -86,13 +91,16 @@ def of_fits(found):
         yield f"fit      {of_fit(found.used)}"
 
 
+# Returns rows of texts as lines whose columns are aligned.
 def aligned(rows):
     widths = [max(map(len, column)) for column in zip(*rows)]
     return ["  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)).rstrip() for row in rows]
 
 
 def lines_of(loads, estimates, answers, half_width):
-    """Returns the lines that the command prints, with a section for each kind of runs."""
+    """Yields the lines that the command prints, with a section for each of the first MOST_KINDS kinds of runs.
+    `estimates` has (Loads, Estimate) by kind, `answers` are pairs (kind, Answer), and `half_width` is that of
+    of_record()."""
     yield of_loads(loads)
     for kind, (of, found) in list(estimates.items())[:MOST_KINDS]:
         if len(estimates) > 1:
@@ -108,6 +116,7 @@ def lines_of(loads, estimates, answers, half_width):
         yield f"and {len(estimates) - MOST_KINDS} more kinds of runs: loads-returns.csv"
 
 
+# Explanation below the table of the page.
 EXPLAINED = (
     f"Intervals hold {100 * extremes.LEVEL:g} %. A fit with p below {estimate.REFUTED:g} or a shape above "
     f"{estimate.HEAVIEST:g} is refuted and gives no return value: it is struck through. Return values beyond "

@@ -1,4 +1,5 @@
-"""The picture of runs of ice management, which are shown side by side."""
+"""The figure of `polynya management RUN …`: six panels that compare runs of ice management. A case is a run with the
+ice that passed its gates (Case in __main__.py): `before` at the upstream gate, `after` at the gate near the body."""
 import numpy
 from matplotlib.lines import Line2D
 
@@ -7,23 +8,28 @@ from ..naming import short
 from .gates import distribution, managing
 from .measures import loads_on, rows_of
 
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")  # [Okabe2008]
-REST = "#bbbbbb"  # colour of further runs
-LONGEST = 24  # largest length of a run's name in the title of a panel [characters]
-HEIGHT = 62  # height of a row of panels [mm]
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")  # of the first six runs [Okabe2008]
+REST = "#bbbbbb"  # colour of all further runs, which share one entry of the legend
+LONGEST = 24  # largest length of a run's name in the title of a panel [characters]; longer ones are shortened
+HEIGHT = 62  # wanted height of a row of panels on paper [mm]; less if the page is too short
 
 
 def coloured(cases):
-    """(colour, case) of each run. Runs with their own colours are drawn last."""
+    """Returns (colour, case) of each run in reverse order, so that runs with their own colours are drawn last, above
+    the grey ones."""
     return [(COLOURS[k] if k < len(COLOURS) else REST, case) for k, case in enumerate(cases)][::-1]
 
 
 def at_least(passage, weights):
-    """Sizes, and the sum of the weights of the floes of at least each size."""
+    """Returns the sizes √area of the floes of a passage in ascending order [m], and for each size the sum of the
+    weights of the floes of at least that size. With weights of 1 this is a number of floes, with areas an area."""
     order = numpy.argsort(passage.sizes)
     return passage.sizes[order], numpy.cumsum(weights[order][::-1])[::-1]
 
 
+# Draws the number of floes of at least each size, and their share of the ice, in two panels. Here and in the panels
+# below, dashed lines and crosses are the upstream gate, solid lines and circles the gate near the body. A grey line
+# marks the size from which floes count as large (`gates.size`) in the first case.
 def draw_sizes(axes, cases):
     number, share = axes
     for colour, case in coloured(cases):
@@ -40,6 +46,8 @@ def draw_sizes(axes, cases):
     number.set_yscale("log")
 
 
+# Draws the percentage of time in which each load on the body is exceeded: solid by ice, dotted by the mooring. Loads of
+# at most 1 kN are left out of the curves, because the axis is logarithmic; the percentages refer to the whole time.
 def draw_exceedance(axes, cases):
     for colour, case in coloured(cases):
         for loads, dash in zip(loads_on(case.run, case.gates).values(), ("-", ":")):
@@ -52,7 +60,8 @@ def draw_exceedance(axes, cases):
 
 
 def draw_tracks(axes, case, colour):
-    """Draws the tracks of the icebreakers over ground, and the waterline of the body at the end."""
+    """Draws the tracks over ground of the ships that manage ice in one run, and the waterline of the protected body at
+    its end."""
     for ship in managing(case.run.scene):
         rows = rows_of(case.run, ship)
         axes.plot(rows["x_m"], rows["y_m"], linewidth=0.6, color=colour)
@@ -62,6 +71,7 @@ def draw_tracks(axes, case, colour):
     axes.set(xlabel="x, m", ylabel="y, m", aspect="equal")
 
 
+# Draws the size of each floe that passed a gate over its position across the drift.
 def draw_across(axes, cases):
     for colour, case in coloured(cases):
         for passage, mark, alpha in ((case.before, "x", 0.4), (case.after, "o", 0.8)):
@@ -71,7 +81,7 @@ def draw_across(axes, cases):
 
 
 def draw_passed(axes, cases):
-    """Draws the area of ice of each size that passed the gates."""
+    """Draws the area of ice that passed each gate by floe size, in the intervals of gates.distribution()."""
     for colour, case in coloured(cases):
         for passage, dash in ((case.before, "--"), (case.after, "-")):
             edges, _, areas = distribution(passage)
@@ -81,6 +91,7 @@ def draw_passed(axes, cases):
     axes.set(xlabel="floe size √area, m", ylabel="ice through the gate, m²", xscale="log", **ends)
 
 
+# Returns the legend entries: a colour for each run, one for all further runs, and the line styles.
 def legend_of(cases):
     handles = [Line2D([], [], color=colour, label=plain(case.name))
                for colour, case in reversed(coloured(cases)) if colour != REST]
@@ -92,7 +103,8 @@ def legend_of(cases):
 
 
 def draw_runs(cases, page):
-    """Draws sizes, loads, places and tracks of all runs."""
+    """Draws all panels on a page (figures.page.Page) and returns the figure. The caption and the grey line are those of
+    the first case. Tracks are drawn for the first run in which a ship manages ice."""
     gates = cases[0].gates
     caption = (f"Floes through gates {gates.upstream:g} m and {gates.near:g} m upstream of {gates.body}; grey line: "
                f"floes of {gates.size:g} m")

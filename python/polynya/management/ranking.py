@@ -1,7 +1,8 @@
-"""Ranks patterns by means over the same ice fields, with Student's intervals and tests of the differences.
+"""Ranks patterns of ice management by the mean of a measure over fields of ice, with Student's intervals and tests of
+the differences.
 
-Patterns are compared field by field. The same seed gives the same ice, so effects of a field that are the same for all
-patterns cancel in the differences."""
+Patterns are compared field by field. A field is named by its seeds, and the same seeds give the same ice, so effects of
+a field that are the same for all patterns cancel in the differences. The values of a pattern are {field: value}."""
 from __future__ import annotations
 
 import dataclasses
@@ -9,32 +10,35 @@ import itertools
 import math
 from typing import Optional
 
-LEVEL = 0.95  #: probability of intervals and of the tests [-]
+#: Probability with which an interval contains the true mean, and with which no test of a ranking finds a difference
+#: that does not exist [-]. Larger: wider intervals, and fewer significant differences.
+LEVEL = 0.95
 
 
 @dataclasses.dataclass(frozen=True)
 class Mean:
-    """A mean over fields, and half of its Student interval; None if there is only one field."""
+    """A mean over fields, in the unit of the measure."""
 
     value: float
-    half: Optional[float]
-    count: int
+    half: Optional[float]  #: half of its Student interval: value ± half; None if there is only one field
+    count: int  #: number of fields
 
 
 def student(count):
-    """Half of an interval divided by the standard deviation, for the mean of `count` values."""
+    """Returns half of the interval of the mean of `count` values (at least 2), divided by their standard deviation."""
     from scipy import stats
 
     return float(stats.t.ppf((1 + LEVEL) / 2, count - 1)) / math.sqrt(count)
 
 
+# Standard deviation of a sample of at least two values.
 def deviation(values):
     middle = math.fsum(values) / len(values)
     return math.sqrt(math.fsum((value - middle) ** 2 for value in values) / (len(values) - 1))
 
 
 def mean_of(values):
-    """Mean of values; None if there are none."""
+    """Returns the Mean of values; None if there are none."""
     values = list(values)
     if not values:
         return None
@@ -44,21 +48,22 @@ def mean_of(values):
 
 
 def common(one, other):
-    """The values of two {field: value} in the fields that both have."""
+    """Returns the values of two patterns, as two lists, in the fields that both have."""
     fields = [field for field in one if field in other]
     return [one[field] for field in fields], [other[field] for field in fields]
 
 
 def difference(one, other):
-    """Mean difference of two patterns over their common fields; None if there are none."""
+    """Returns the Mean of `one` minus `other` over the fields that both have; None if there are none."""
     first, second = common(one, other)
     return mean_of(a - b for a, b in zip(first, second))
 
 
 def share_left(managed, unmanaged):
-    """The load with management divided by that without: the ratio of the means over common fields, with its interval by
-    Fieller's theorem [Fieller1954]. Returns (ratio, low, high). Returns None if there is no common field, and no limits
-    for fewer than two fields or if the mean without management may be 0."""
+    """Returns the load with management divided by that without, as (ratio, low, high): the ratio of the means over
+    common fields, with its interval by Fieller's theorem [Fieller1954]. Returns None if there is no common field or the
+    mean without management is 0. The limits are None for fewer than two fields, or if the interval of the mean without
+    management contains 0, because the ratio may then be arbitrarily large."""
     top, low = common(managed, unmanaged)
     if not top or math.fsum(low) == 0:
         return None
@@ -78,8 +83,8 @@ def share_left(managed, unmanaged):
 
 
 def p_value(one, other):
-    """p value of the paired t test over the common fields; 1 if there are fewer than two, or if all differences are
-    0."""
+    """Returns the p value of the paired t test of two patterns over their common fields. It is 1 if there are fewer
+    than two fields or all differences are 0, and 0 if all differences are equal and not 0."""
     from scipy import stats
 
     first, second = common(one, other)
@@ -90,8 +95,9 @@ def p_value(one, other):
 
 
 def told_apart(patterns):
-    """Pairs of {name: {field: value}} that differ, by Holm's rule over all pairs [Holm1979]. The probability that any
-    of these pairs is wrong is at most 1 − LEVEL."""
+    """Returns the pairs of patterns, as a set of frozensets of two names, whose means differ significantly by Holm's
+    rule over all pairs [Holm1979]. The probability that at least one pair is returned wrongly is at most 1 − LEVEL.
+    `patterns` is {name: {field: value}}."""
     pairs = sorted((p_value(patterns[a], patterns[b]), a, b) for a, b in itertools.combinations(patterns, 2))
     found = set()
     for rank, (p, a, b) in enumerate(pairs):
@@ -103,17 +109,19 @@ def told_apart(patterns):
 
 @dataclasses.dataclass(frozen=True)
 class Place:
-    """A pattern in a ranking. The first one has the smallest mean."""
+    """A pattern in a ranking, in which the pattern with the smallest mean is the first."""
 
     name: str
     mean: Mean
-    left: Optional[tuple]  #: its mean relative to the unmanaged one: (ratio, low, high)
-    benefit: Optional[Mean]  #: unmanaged mean minus this one
-    like: list  #: patterns from which it does not differ significantly
+    left: Optional[tuple]  #: result of share_left(): its mean divided by the unmanaged one; None for that one itself
+    benefit: Optional[Mean]  #: mean of the unmanaged value minus its value, over common fields; None as for `left`
+    like: list  #: names of the patterns from which it does not differ significantly
 
 
 def ranking(patterns, unmanaged=None):
-    """Ranks {name: {field: value}} by ascending mean. `unmanaged` names the pattern without management."""
+    """Returns the patterns {name: {field: value}} as a list of Place, the smallest mean first. Patterns without values
+    are left out. `unmanaged` is the name of the pattern without management; if there is none, no pattern has `left` and
+    `benefit`."""
     patterns = {name: of for name, of in patterns.items() if of}
     apart = told_apart(patterns)
     base = patterns.get(unmanaged)
@@ -127,8 +135,9 @@ def ranking(patterns, unmanaged=None):
 
 
 def alike(places):
-    """Groups of neighbouring patterns in a ranking that do not differ significantly from each other. Each group is as
-    large as possible."""
+    """Returns groups of neighbouring patterns in a ranking, as lists of names, in which no pattern differs
+    significantly from another one. Each group has at least two patterns and is as large as possible; groups may
+    overlap."""
     names = [place.name for place in places]
     likes = {place.name: set(place.like) for place in places}
     found = []

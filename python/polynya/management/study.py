@@ -1,4 +1,7 @@
-"""Ranks the patterns of a study of ice management, for each of the conditions that it varies."""
+"""Reads a study of ice management and ranks its patterns, separately for each of the conditions that it varies.
+
+The parameters of the study have different roles. Some define patterns, which are ranked, such as the pilot of the
+icebreaker. Seeds define fields of ice, over which means are taken. The rest, such as the drift, define conditions."""
 import dataclasses
 import json
 import math
@@ -7,30 +10,32 @@ from ..errors import InputError
 from ..naming import leaf_in_words, names_of, parsed
 from . import cautions, ranking
 
-PREFIX = "management_"
-UNMANAGED = "not managed"
-MEASURES = {  # measures by which patterns are ranked; smaller is better
+PREFIX = "management_"  # of the names of all measures of ice management in a study's table
+UNMANAGED = "not managed"  # name of the pattern without a managing ship, with which the others are compared
+# Measures by which patterns are ranked, with their meanings and units; smaller is better. A measure that the study does
+# not have is left out.
+MEASURES = {
     "management_ice_load_mean_N": "mean load of the ice [N]",
     "management_ice_load_q99_N": "load of the ice exceeded 1 % of the time [N]",
     "management_mooring_load_mean_N": "mean load of the mooring [N]",
     "management_mooring_load_q99_N": "load of the mooring exceeded 1 % of the time [N]",
     "management_largest_at_body_m": "largest floe that arrives [m]",
 }
-SEEDS = ("seed", "repetition")
+SEEDS = ("seed", "repetition")  # columns of a study's table that together name a field of ice
 
 
 @dataclasses.dataclass
 class Condition:
-    """Cases that differ only in their pattern and ice field: measure -> pattern -> {field: value}."""
+    """Cases that differ only in their pattern and ice field."""
 
-    name: str
+    name: str  #: values of the parameters that define it, in words; empty if there are none
     x: float  #: value of the parameter on the x axis of figures; 0 if there is none
-    values: dict
+    values: dict  #: measure -> pattern -> {field: value}
     lost: dict  #: pattern -> {field: (area of ice that left the scene [m²], its fraction of all ice)}
 
     def ranked(self, measure):
-        """Patterns by a measure. A measure that is 0 in every case ranks nothing, and neither does a condition in which
-        no ice arrived."""
+        """Returns the patterns ranked by a measure, as a list of ranking.Place. The list is empty if the measure is 0
+        in every case, or if no ice arrived in this condition, because then nothing was measured."""
         values = self.values.get(measure, {})
         if not cautions.has_arrived(self) or not any(value for of in values.values() for value in of.values()):
             return []
@@ -39,19 +44,20 @@ class Condition:
 
 @dataclasses.dataclass
 class Found:
-    """Results of a study for its patterns."""
+    """The finished cases of a study, arranged by conditions and patterns."""
 
-    name: str
-    finished: int
-    cases: int
+    name: str  #: name of the study
+    finished: int  #: number of finished cases
+    cases: int  #: number of all cases
     by: list  #: parameters that define patterns
     against: str  #: parameter of the x axis; empty if there is none
-    conditions: list
+    conditions: list  #: list of Condition in ascending order of `x`
     patterns: list  #: names of patterns in the order of the study
-    measures: list
-    body: str  #: name of the protected body
+    measures: list  #: names of all measures of ice management in the table
+    body: str  #: name of the protected body, for messages
 
 
+# Returns the different values of a column as texts, in the order of the table.
 def different(table, name):
     return list(dict.fromkeys(str(value) for value in table[name]))
 
@@ -61,8 +67,8 @@ def is_number(value):
 
 
 def follows(table, name, others):
-    """Returns True if a parameter has one value for each combination of the others, because it was set together with
-    them."""
+    """Returns True if a parameter has only one value for each combination of the `others`, because it was set together
+    with them (`paired` of a study). It then defines no condition of its own."""
     values = {}
     for row in table:
         key = tuple(str(row[other]) for other in others)
@@ -72,9 +78,12 @@ def follows(table, name, others):
 
 
 def roles_of(plan, parameters, table):
-    """Finds the roles of parameters: those that define patterns (report.group_by, otherwise those with objects,
-    otherwise the first), the one on the x axis (report.against, otherwise one of drift, otherwise one with numbers),
-    and the rest, which define conditions."""
+    """Returns the roles of the parameters that the study varies: (by, against, rest).
+
+    by: those that define patterns: report.group_by of the study, otherwise those whose values are objects, such as
+    pilots, otherwise the first one. rest: the others, which define conditions. against: one of the rest for the x axis:
+    report.against, otherwise one whose name contains "drift", otherwise the first one with only numbers; empty if there
+    is none. Raises InputError if only seeds are varied."""
     asked = plan.get("report", {})
     varied = [name for name in parameters if name not in SEEDS and len(different(table, name)) > 1]
     if not varied:
@@ -91,7 +100,8 @@ def roles_of(plan, parameters, table):
 
 
 def x_of(against, value):
-    """A number for a value of the parameter on the x axis; for a velocity its speed."""
+    """Returns a number for a value of the parameter `against` on the x axis: the magnitude of a list of numbers, such
+    as a velocity, and the absolute value of a drift. None if the value is neither a number nor such a list."""
     value = parsed(value)
     if isinstance(value, list) and value and all(isinstance(part, (int, float)) for part in value):
         return math.hypot(*value)
@@ -101,12 +111,14 @@ def x_of(against, value):
 
 
 def path_of(name):
-    """Parts of the path of a parameter, from which its unit is found."""
+    """Returns the keys and indices of the path of a parameter, such as ("ships", "0", "speed_m_per_s"). The unit is
+    found from the last key."""
     return tuple(name.replace("]", "").replace("[", ".").split("."))
 
 
 def value_in_words(name, value):
-    """"drift 0.5 m/s" for a number with the unit of its path."""
+    """Returns a text such as "drift 0.5 m/s" for a number, with the unit of the path `name`; other values as they
+    are."""
     if not is_number(value):
         return str(value)
     keys = [part for part in path_of(name) if not part.isdigit()]
@@ -114,8 +126,8 @@ def value_in_words(name, value):
 
 
 def names_of_values(values):
-    """{value: name} of the values of a parameter. If only one of them is a pilot that manages ice, its pattern is its
-    name, because it differs from the others in everything."""
+    """Returns {value: name} of the values of a parameter. Objects are named by their differences. If only one of them
+    is a pilot that manages ice, its pattern is its name, because it differs from the others in everything."""
     names = names_of(values)
     managing = {value: parsed(value)["manage"] for value in names
                 if isinstance(parsed(value), dict) and isinstance(parsed(value).get("manage"), dict)}
@@ -126,8 +138,8 @@ def names_of_values(values):
 
 
 def pattern_names(table, by):
-    """{values: name} of the patterns, formed from the differences. Patterns without a managing ship are named as not
-    managed."""
+    """Returns {values of the parameters `by`: name} of the patterns. Names are formed from the differences; a pattern
+    without a managing ship is named UNMANAGED, unless no pattern has one."""
     names = {name: names_of_values([str(value) for value in table[name]]) for name in by}
     found = {}
     for row in table:
@@ -142,6 +154,8 @@ def pattern_names(table, by):
     return found
 
 
+# Returns the conditions of the finished cases `rows`, in ascending order of x. A measure that is NaN in a case is left
+# out. For `by`, `against` and `rest` see roles_of(); `patterns` are the names of pattern_names().
 def conditions_of(rows, by, against, rest, patterns, measures):
     found = {}
     for row in rows:
@@ -160,6 +174,8 @@ def conditions_of(rows, by, against, rest, patterns, measures):
     return sorted(found.values(), key=lambda condition: condition.x)
 
 
+# Reads a gathered study as Found. Unfinished cases are left out. Raises InputError if no case is finished, or if the
+# study has no measures of ice management.
 def read(folder):
     from ..results.study import Study
 
@@ -181,7 +197,7 @@ def read(folder):
 
 
 def in_json(found):
-    """All ranked results, and the means of all measures."""
+    """Returns a Found as JSON: for each condition its contacts, its rankings, and the means of all measures."""
     def of(mean):
         return None if mean is None else dataclasses.asdict(mean)
 

@@ -1,4 +1,4 @@
-"""`polynya movie` (polynya.command starts it)."""
+"""The command `polynya movie`, which makes a film of a run, or one picture of it (polynya.command starts it)."""
 import argparse
 import os
 import signal
@@ -9,7 +9,8 @@ from ..arguments import Parser, number
 from ..command import INPUT_OUTPUT, run
 from ..command import fail as fail_command
 
-DONE, USAGE = 0, 2
+DONE, USAGE = 0, 2  # exit codes of app/command_line/console.hpp
+# Examples and closing text of the command's help.
 EXAMPLES = (
     "movie runs/sawamura2017-fig4b --out voyage.mp4",
     "movie runs/sawamura2017-fig4b --out voyage.gif --size 800x450 --from 100 --to 300 --speed 20",
@@ -23,7 +24,7 @@ Exit codes: 0 done, 2 usage, 5 input/output, or numpy, matplotlib or ffmpeg is m
 
 
 class Stopped(Exception):
-    """Raised when a signal stops the command."""
+    """Raised when a signal stops the command. `number` is that of the signal; the text is its name."""
 
     def __init__(self, number):
         super().__init__(signal.Signals(number).name)
@@ -31,7 +32,8 @@ class Stopped(Exception):
 
 
 def size(text):
-    """Reads width and height of a picture [px]. Both must be even, because MP4 requires it."""
+    """Reads width and height of a picture [px] from a text such as 1280x720. Both must be even, because MP4 requires
+    it, and from 320 to 7680. Raises ArgumentTypeError with what is allowed."""
     parts = text.lower().split("x")
     values = [int(part) for part in parts if part.isdigit()]
     if len(parts) != 2 or len(values) != 2 or not all(320 <= value <= 7680 and value % 2 == 0 for value in values):
@@ -40,6 +42,7 @@ def size(text):
     return tuple(values)
 
 
+# Returns a file name unchanged if its suffix is .mp4, .gif or .png; otherwise raises ArgumentTypeError.
 def film_name(text):
     from .film import SUFFIXES
 
@@ -73,7 +76,8 @@ def fail(code, message):
 
 
 class Progress:
-    """Shows progress on stderr: one line on a terminal, which is overwritten, otherwise a line every ten seconds."""
+    """Shows progress on stderr: one line on a terminal, which is overwritten, otherwise a line every ten seconds. It is
+    called with the number of completed pictures and their total."""
 
     def __init__(self):
         self._start = self._shown = time.monotonic()
@@ -93,6 +97,9 @@ class Progress:
             print(words, file=sys.stderr, flush=True)
 
 
+# Makes the film, or one picture if the name ends in .png, and returns an exit code. A picture shows the run at --from
+# (its start if that is not given); --to is ignored, and its curves show the whole run. Raises FolderError and
+# FilmError.
 def make(options):
     from polynya.errors import FolderError
     from polynya.results.run import Run
@@ -128,6 +135,8 @@ def make(options):
     return DONE
 
 
+# Returns the line that the command prints at its end. `times` are the times of the pictures [s], `rate` their number
+# per second of the film, and `speed` the simulated seconds per second of the film.
 def summary(path, times, rate, speed):
     megabytes = f"{os.path.getsize(path) / 1e6:.2g} MB"
     if len(times) == 1 or path.lower().endswith(".png"):
@@ -136,10 +145,12 @@ def summary(path, times, rate, speed):
             f"{times[-1]:g} s, {speed:g} x real time")
 
 
+# Handler of signals.
 def stop(number, _):
     raise Stopped(number)
 
 
+# Runs the command. After a signal the draft of the film is removed, and then the signal ends the process.
 def main():
     options = command_line().parse_args()
     for number_of_signal in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):

@@ -1,4 +1,4 @@
-"""Encodes pictures as a film with ffmpeg."""
+"""Encodes pictures as a film, MP4 or GIF, with the program ffmpeg."""
 from __future__ import annotations
 
 import contextlib
@@ -9,17 +9,20 @@ import tempfile
 
 import numpy
 
+# Message if ffmpeg is not installed.
 MISSING = ("ffmpeg is not installed: ./setup.sh python, or apt-get install ffmpeg "
            "(a picture, --out frame.png, needs none)")
-SAMPLES = 8  # number of pictures from which the colours of a GIF are chosen
+# Number of pictures, spread over the film, from which the 256 colours of a GIF are chosen. More: rare colours are kept,
+# but each picture is drawn once more before the film begins.
+SAMPLES = 8
 
 
 class FilmError(Exception):
-    """A film that could not be written, with the reason."""
+    """Raised if a film cannot be written: ffmpeg is missing, or failed with the message in the text."""
 
 
 def ffmpeg():
-    """Returns the path of the program. Raises FilmError if it is missing."""
+    """Returns the path of ffmpeg on the search path. Raises FilmError if it is missing."""
     found = shutil.which("ffmpeg")
     if found is None:
         raise FilmError(MISSING)
@@ -27,13 +30,15 @@ def ffmpeg():
 
 
 def input_of(size, rate):
-    """Arguments of ffmpeg for pictures of rows × columns × 4 bytes from its stdin."""
+    """Returns the arguments with which ffmpeg reads uncompressed pictures from its stdin: rows × columns × 4 bytes, of
+    which the fourth is ignored. `size` is width and height [px], `rate` the number of pictures per second."""
     return ["-f", "rawvideo", "-pixel_format", "rgb0", "-video_size", "{}x{}".format(*size),
             "-framerate", f"{rate:g}", "-i", "-"]
 
 
 def palette(pictures, size, folder):
-    """Makes a PNG with the colours of some pictures, which GIFs need."""
+    """Writes a PNG with the colours of a GIF, chosen from some pictures, into a folder, and returns its path. Raises
+    FilmError if ffmpeg fails."""
     path = os.path.join(folder, "palette.png")
     words = [ffmpeg(), "-v", "error", "-y", *input_of(size, 1), "-vf", "palettegen=stats_mode=full",
              "-frames:v", "1", "-update", "1", path]
@@ -44,17 +49,22 @@ def palette(pictures, size, folder):
     return path
 
 
+# Returns the last line of ffmpeg's messages, which states the reason of a failure.
 def last_line(text):
     lines = text.decode(errors="replace").strip().splitlines()
     return lines[-1] if lines else "it failed without a message"
 
 
 class Encoder:
-    """A film that is being written. It is written under a hidden name and gets its own name when it is complete;
-    otherwise nothing of it remains. ffmpeg runs in its own session, so that Ctrl-C reaches only this process."""
+    """A film while it is written, to be used in a `with` statement. It is written under a hidden name in the same
+    folder and gets its own name at the end of the statement. After an exception nothing of it remains, and a file that
+    had the name before is unchanged. ffmpeg runs in its own session, so that Ctrl-C reaches only this process, which
+    removes the draft. Raises FilmError if ffmpeg is missing or fails."""
 
     def __init__(self, path, size, rate, samples=()):
-        """`samples` are pictures from which the colours of a GIF are chosen."""
+        """Starts ffmpeg. The suffix of `path` decides the format: GIF for .gif, otherwise MP4. `size` is width and
+        height of the pictures [px], `rate` their number per second of the film. `samples` are pictures from which the
+        colours of a GIF are chosen; an MP4 needs none."""
         self._path = os.path.realpath(path)
         folder, name = os.path.split(self._path)
         self._draft = os.path.join(folder, f".{name}.{os.getpid()}.part")
@@ -67,6 +77,9 @@ class Encoder:
             self._clean_up()
             raise
 
+    # Starts ffmpeg and returns its process. An MP4 has nearly no visible loss (crf 18; larger values give smaller files
+    # of less quality) and its index at the start, so that a browser can play it while it loads. A GIF has no dithering,
+    # which would make it larger.
     def _started(self, path, size, rate, samples):
         words = [ffmpeg(), "-v", "error", "-y", *input_of(size, rate)]
         if path.lower().endswith(".gif"):
@@ -79,7 +92,7 @@ class Encoder:
                                 stderr=self._errors, start_new_session=True)
 
     def add(self, pixels):
-        """Adds the next picture."""
+        """Adds the next picture, an array of rows × columns × 4 bytes."""
         try:
             self._process.stdin.write(numpy.ascontiguousarray(pixels))
         except BrokenPipeError:

@@ -1,4 +1,5 @@
-"""A ship under full power in level ice: the scene for one thickness, and a test of whether its speed is steady."""
+"""A ship under full power in level ice: the scene for one thickness, the mean speed and forces of its run, and a test
+of whether the speed is steady."""
 import math
 import pathlib
 
@@ -6,18 +7,23 @@ import numpy as np
 
 from ..study.measures import rows_by_ship
 
-BLOCKS = 6  # number of parts of the measured distance, from whose differences the error is estimated
-# Keys of a ship file that are replaced, because the ship sails full ahead along the x axis.
+# Number of equal parts of the measured distance. The standard error of the mean speed is estimated from the
+# differences between the mean speeds of the parts. More parts: they are shorter and depend on each other, so that the
+# error is too small; fewer parts: the error itself is uncertain.
+BLOCKS = 6
+# Keys of a ship file that are left out of the scene, because the ship sails straight along the x axis. A ship with
+# steering has another pilot instead, which holds its heading.
 OF_THE_START = ("pilot", "sway_speed_m_per_s", "yaw_rate_deg_per_s")
-# An endless plate does not split, and pieces that surface behind the stern do not load the ship.
+# Settings of the scene's `fracture`. The plate represents endless ice, which does not split as a floe does. Broken
+# pieces do not surface again, because that would be behind the stern, where they do not load the ship.
 ENDLESS = {"splitting": {"model": "none"}, "resurface": {"enabled": False}}
-# Standard deviation of the flexural strength of beams at one place, divided by their mean (recall). Without scatter,
-# cusps of thick ice form regular patterns that can stop a ship.
+# Standard deviation of the flexural strength between bending events, divided by its mean [-]. Measured beams at one
+# place scatter as much (recall). Without scatter, cusps of thick ice form regular patterns that can stop a ship.
 STRENGTH_SPREAD = 0.2
 
 
 def ice_keys(ice):
-    """The ice of a scene."""
+    """Returns the member `ice` of a scene for a formulas.Ice. The density of the water is left to its default."""
     return {
         "thickness_m": ice.thickness,
         "flexural_strength_Pa": ice.flexural_strength,
@@ -29,8 +35,9 @@ def ice_keys(ice):
 
 
 def scene(ship, ice, speed, lengths, step):
-    """The scene: the ship at `speed` [m/s] 2 m in front of a plate of fast ice, on a course of `lengths` ship
-    lengths."""
+    """Returns the scene of a run, as a dict. The ship starts at `speed` [m/s] with its stem 2 m in front of a plate of
+    fast ice, which is `lengths` + 1 ship lengths long and 5 beams wide. The run lasts as long as the ship would need
+    for the plate at that speed. `ship` is a ship as in a scene, `ice` a formulas.Ice and `step` the time step [s]."""
     hull = ship["hull"]
     length, width = hull["length_m"], 5 * hull["beam_m"]
     way = (lengths + 1) * length
@@ -51,8 +58,19 @@ def scene(ship, ice, speed, lengths, step):
 
 
 class Measured:
-    """Mean speed over ground of a run [m/s], its error [m/s], and the mean braking forces [N]. Only the distance on
-    which the whole hull is in the ice and the stem within the plate counts."""
+    """The mean motion of a run of scene(), read from forces.csv. `way` is the length of the plate [m].
+
+    Only rows count in which the ship has sailed at least 2.2 ship lengths, so that the whole hull is in the ice, and in
+    which its stem is at least 0.1 ship lengths before the end of the plate. Members:
+
+    speed, error: mean speed over ground and its standard error [m/s], both 0 for a stuck ship.
+    contact, submerged: mean braking force by contacts with ice, and by ice under the hull [N].
+    way: distance that the ship has sailed, up to 0.1 ship lengths before the end of the plate [m].
+    is_stuck: true if the mean speed in the last quarter of the run was below 0.05 m/s. The forces are then the means
+    over that quarter.
+    is_steady: false if too few rows count for a mean speed, which is then 0.
+    drift: change of the mean speed from the first to the second half of the distance, divided by the mean speed; only
+    for a ship that has a mean speed."""
 
     def __init__(self, folder, ship, way=math.inf):
         length = ship["hull"]["length_m"]
@@ -71,7 +89,7 @@ class Measured:
             self.submerged = -np.mean(submerged[tail])
             return
         time, x = time[is_full], x[is_full]
-        edges = np.linspace(x[0], x[-1], BLOCKS + 1)  # parts of equal distance
+        edges = np.linspace(x[0], x[-1], BLOCKS + 1)  # ends of parts of equal distance
         at = np.interp(edges, x, time)
         speeds = np.diff(edges) / np.diff(at)
         self.speed = (x[-1] - x[0]) / (time[-1] - time[0])
@@ -84,8 +102,9 @@ class Measured:
         self.is_steady = True
 
     def is_within(self, share):
-        """Returns True if the standard error of the mean, and half of the change between the halves, are below this
-        fraction of it."""
+        """Returns True if the speed is steady enough, so that the run need not be repeated on a longer course. The
+        standard error must be at most the fraction `share` of the mean speed, and half of the change between the two
+        halves of the distance at most `share` of it plus one standard error. A stuck ship is steady."""
         if self.is_stuck:
             return True
         return (

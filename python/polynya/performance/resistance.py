@@ -1,4 +1,5 @@
-"""Runs of a table of resistance, one for each point and seed. Finished runs are kept and reused."""
+"""Computes a table of resistance: for each point (a speed, thickness, cover and floe size) the mean over runs with
+several seeds. Finished runs are kept in a folder and reused if their scene is the same."""
 import concurrent.futures
 import dataclasses
 import itertools
@@ -11,20 +12,24 @@ from ..runs_kept import kept_run
 from ..study.measures import rows_by_ship
 from . import ice_scenes
 
-# Lengths of the ship at the start of the way that do not count, because the hull is not yet completely in the ice.
+# The resistance counts from the time at which the stem is this far in the ice [ship lengths]. At 1 the hull has just
+# entered completely; the other 0.2 are a margin. Larger: less of the course (ice_scenes.LENGTHS) is measured, so that
+# the scatter grows. Smaller than 1: the resistance is too small, because part of the hull is in open water.
 FULL = 1.2
-# Ranges that docs/validation.md compares with measurements. "Pack ice": floes of 15 m, 0.5 m thick, at 1 m/s, covers
-# from 0.3 to 0.9. "A ship in level ice": up to 0.5 m.
+# Ranges that docs/validation.md compares with measurements, by regime and name of a point's value (lowest, highest). A
+# name that is missing has no limit. Points outside are marked in tables and JSON; they are computed in the same way.
+# "Pack ice": floes of 15 m, 0.5 m thick, at 1 m/s, covers from 0.3 to 0.9. "A ship in level ice": up to 0.5 m.
 VALIDATED = {
     ice_scenes.PACK: {"speed_m_per_s": (1, 1), "thickness_m": (0.5, 0.5), "cover": (0.3, 0.9),
                       "floe_size_m": (15, 15)},
     ice_scenes.LEVEL: {"thickness_m": (0, 0.5)},
-    ice_scenes.CHANNEL: None,  # no comparison
+    ice_scenes.CHANNEL: None,  # not compared with measurements: no point is in the range
 }
 
 
 def points_of(speeds, thicknesses, covers, sizes):
-    """All combinations of the values."""
+    """Returns all combinations of the speeds [m/s], thicknesses [m], covers [-] and floe sizes [m] as points, which are
+    dicts. The floe size varies fastest."""
     names = ("speed_m_per_s", "thickness_m", "cover", "floe_size_m")
     return [dict(zip(names, values)) for values in itertools.product(speeds, thicknesses, covers, sizes)]
 
@@ -36,7 +41,9 @@ def is_validated(regime, point):
 
 
 def measured(folder, ship):
-    """Mean resistance by ice around and under the hull [N], over the time in which the hull is in the ice."""
+    """Returns two mean resistances of a run [N]: by contacts with ice around the hull, and by ice under the hull. They
+    are means over the rows of forces.csv in which the stem is more than FULL ship lengths behind the edge of the ice
+    (x = 0) and has more than 0.05 ship lengths to its end."""
     length = ship["hull"]["length_m"]
     (columns,) = rows_by_ship(pathlib.Path(folder) / "forces.csv").values()
     x, surge, submerged = (np.array(columns[name]) for name in ("x_m", "surge_N", "surge_from_submerged_ice_N"))
@@ -46,21 +53,27 @@ def measured(folder, ship):
 
 
 class Resistance:
-    """The points of one regime, each computed by runs with several seeds."""
+    """Computes the rows of a table for one regime: pack ice, level ice or a channel of brash (ice_scenes.py).
+
+    ship: a ship as in a scene. ice: a formulas.Ice, whose thickness is replaced by that of each point. folder: place
+    of the runs. program: path of polynya. seeds: number of runs per point, which have the seeds 1, 2 and so on. step:
+    time step [s]; None means the default of a scene."""
 
     def __init__(self, regime, ship, ice, folder, program, seeds, step):
         self.regime, self.ship, self.ice, self.seeds, self.step = regime, ship, ice, seeds, step
         self.folder, self.program = pathlib.Path(folder), program
 
     def run(self, point, seed):
-        """Resistance by contact and by submersion of one run [N]."""
+        """Makes the run of a point with a seed, unless it is kept from before. Returns its resistances by contact and
+        by submersion [N]. Raises RunFailed if the run fails."""
         ice = dataclasses.replace(self.ice, thickness=point["thickness_m"])
         made = ice_scenes.scene(self.regime, self.ship, ice, point, seed, self.step)
         name = "-".join([self.regime, *(f"{value:g}" for value in point.values()), str(seed)])
         return measured(kept_run(self.program, self.folder, name, made), self.ship)
 
     def row(self, point, runs):
-        """A row of the table from the runs of a point."""
+        """Returns a row of the table from the pairs (contact, submersion) of a point's runs [N]. Its error is the
+        standard error of the mean over the seeds, NaN for a single run."""
         contact, submerged = np.array(runs).T
         sums = contact + submerged
         error = float(sums.std(ddof=1)) / math.sqrt(len(sums)) if len(sums) > 1 else math.nan
@@ -69,7 +82,9 @@ class Resistance:
                 "is_in_validated_range": is_validated(self.regime, point)}
 
     def rows(self, points, jobs, report):
-        """Returns all rows in the order of the points, and reports progress."""
+        """Makes the runs of all points, `jobs` at a time, and returns the rows in the order of the points. `report` is
+        called with the number of finished runs and their total. An error or Ctrl-C cancels the runs that have not
+        started and is raised again."""
         wanted = [(i, seed) for i in range(len(points)) for seed in range(1, self.seeds + 1)]
         found = {}
         with concurrent.futures.ThreadPoolExecutor(max(1, jobs)) as pool:

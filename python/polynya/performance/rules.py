@@ -1,36 +1,44 @@
-"""Resistance in a channel and minimum power for the Finnish-Swedish ice classes, computed and by the rules' formula."""
+"""The table of `polynya performance SHIP --channel`: resistance in a channel of brash and minimum power for each of the
+Finnish-Swedish ice classes, as computed by runs and by the rules' formula (ice_class.py)."""
 import math
 
 from .. import ice_class
 from ..formulas import hull_of
 from ..ice_class import KNOT, SPEED, SUPER, THICKNESS
 
-WIDTHS = (8, 11, 10, 8, 7, 9, 9, 13, 20)  # widths of the table's columns after the class [characters]
-DIAMETER_OVER_DRAUGHT = 0.65  # of a propeller whose diameter nobody states (recall)
+WIDTHS = (8, 11, 10, 8, 7, 9, 9, 13, 20)  # widths of the printed table's columns after the class [characters]
+# Diameter of a propeller divided by the ship's draught [-], for a ship that does not state the diameter (a typical
+# value from memory). The minimum power is inversely proportional to it.
+DIAMETER_OVER_DRAUGHT = 0.65
 
 
 def propellers_of(ship):
-    """The number of a ship's propellers and their diameter [m]."""
+    """Returns the number of a ship's propellers, at most 3, because the rules have no factor for more, and their
+    diameter [m], which is estimated from the draught if the ship does not state it."""
     engine = ship.get("propulsion", {}).get("engine", {})
     diameter = engine.get("propeller_diameter_m") or DIAMETER_OVER_DRAUGHT * ship["hull"]["draught_m"]
     return min(engine.get("propellers", 1), 3), diameter
 
 
 def computed_at(points, thickness):
-    """The points at 5 knots in brash of that thickness: of several covers and sizes, all."""
+    """Returns the computed points whose speed is 5 knots, within 1 %, and whose brash has that thickness [m]. There may
+    be several, with different covers and piece sizes. The tolerance admits the default speed of 2.572 m/s."""
     return [point for point in points if abs(point["speed_m_per_s"] - SPEED) < 0.01 * SPEED
             and math.isclose(point["thickness_m"], thickness)]
 
 
 def powers(resistance, ship):
-    """Minimum power by a resistance [N] for propellers of fixed and of controllable pitch [W]."""
+    """Returns the minimum power [W] that the rules require for a resistance [N] with the propellers of the ship, for
+    fixed and for controllable pitch, by the name of a column."""
     number, diameter = propellers_of(ship)
     return {f"power_{pitch}_pitch_W": ice_class.minimum_power(resistance, diameter, number, pitch)
             for pitch in ice_class.FACTORS}
 
 
 def row_of(ship, name, thickness, point):
-    """One line: a class with its rule, and a computed point if there is one."""
+    """Returns a row of ice-class.csv for an ice class with brash of that thickness [m]: the rule's resistance, its
+    terms and the power that it requires, and resistance and power of a computed point. Without a point (None) the cells
+    of the point are empty texts."""
     rule = ice_class.channel_resistance(hull_of(ship), thickness, is_frozen=name == SUPER)
     row = {"class": name, "thickness_m": thickness, "cover": "", "piece_size_m": "", "computed_N": "",
            "computed_error_N": "", "rule_N": rule.total, "rule_bow_N": rule.bow, "rule_midbody_N": rule.midbody,
@@ -46,7 +54,8 @@ def row_of(ship, name, thickness, point):
 
 
 def rows(ship, points):
-    """The classes IA, IB and IC with each computed point at 5 knots, and IA Super by the rule alone."""
+    """Returns all rows of the table. IA Super has one row, with the rule alone. IA, IB and IC have a row for each
+    computed point at 5 knots in brash of their thickness, or one row with the rule alone if there is no point."""
     found = [row_of(ship, SUPER, THICKNESS["IA"], None)]
     for name, thickness in THICKNESS.items():
         found += [row_of(ship, name, thickness, point) for point in computed_at(points, thickness) or [None]]
@@ -54,12 +63,14 @@ def rows(ship, points):
 
 
 def shown(value, scale, digits):
-    """A number of a cell; a dash for none."""
+    """Returns a cell of the printed table: the value times `scale`, or a dash if it is empty or NaN, as the error of a
+    single field is."""
     return "-" if value == "" or math.isnan(value) else f"{value * scale:.{digits}f}"
 
 
 def print_table(found, ship):
-    """Prints resistance and minimum power by class, with what the rules' numbers rest on."""
+    """Prints resistance and minimum power by class, and below them the propellers, the speed and the source on which
+    the numbers are based."""
     print()
     for heads in (("class", "H_M", "R_ch", "± fields", "rule", "bow", "midbody", "P", "rule, fixed",
                    "rule, controllable"),

@@ -1,17 +1,23 @@
-"""Waterlines of a resolved scene's ships, structures and walls, in their own frames [m]."""
+"""Waterlines and initial poses of the ships, structures and walls of a resolved scene. They are computed as the program
+does, so that Python can draw bodies of which a run records only the pose.
+
+A body's own frame has its origin at the body's position in the scene, x ahead and y to port [m]."""
 from __future__ import annotations
 
 import math
 
 import numpy
 
-# Largest distance between a cylinder and its polygon [m], as in `cylinder_waterline` of simulation/world/scene.cpp.
+# Largest distance between a cylinder's circle and its polygon [m]. Smaller values give more corners. It must be equal
+# to kSagitta of `cylinder_waterline` in simulation/world/scene.cpp; otherwise Python would draw another outline than
+# the one with which ice collides.
 SAGITTA = 0.01
 
 
 def waterline(body):
-    """Waterline as an array of n × 2 [m]: the given one, or that of a wedge-shaped bow, a cylinder, or a wall behind
-    its face."""
+    """Returns the waterline of a body of the scene as an array of n × 2 in the body's own frame [m], not closed. A
+    cylinder (`radius_m`) is a polygon. A wall (`from_m`) is a rectangle behind its face, with the origin at the middle
+    of the face. A hull has its given waterline, or a wedge-shaped bow with a parallel midbody and a square stern."""
     if "radius_m" in body:
         radius = body["radius_m"]
         half_turn = math.acos(max(-1.0, 1 - SAGITTA / radius))
@@ -30,8 +36,9 @@ def waterline(body):
 
 
 def first_motion(body):
-    """Initial pose at rest: x, y [m], heading [rad] and their rates. The heading of a wall is the direction of its
-    face, to the left of the line from `from_m` to `to_m`."""
+    """Returns the initial motion of a body: x, y [m], heading [rad, counter-clockwise from the x axis] and their three
+    rates. The rates are 0 even if the scene gives the body a speed. The heading of a wall is the direction in which its
+    face points: to the left of the line from `from_m` to `to_m`."""
     if "from_m" in body:
         (x0, y0), (x1, y1) = body["from_m"], body["to_m"]
         return [(x0 + x1) / 2, (y0 + y1) / 2, math.atan2(x1 - x0, y0 - y1), 0, 0, 0]

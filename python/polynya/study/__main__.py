@@ -1,4 +1,5 @@
-"""`polynya study …` (polynya.command starts it).
+"""The command `polynya study ACTION …` (polynya.command starts it). Each function of an action takes the options of
+options.py and returns the exit code.
 
 Modules that only one action needs are imported by that action. This halves the start-up time and the memory of a case.
 """
@@ -14,6 +15,9 @@ from .options import PROCESSORS, command_line
 from .stop import Stop
 
 
+# Action `run`: runs the cases that --chunk, --case or --cases name, or all, and plans the study first if it has no
+# plan. If the study sets `archive`, packed chunks with cases that must run again are unpacked before, and chunks are
+# packed afterwards, except with --case. A chunk or case that does not exist is an error of usage.
 def run(options):
     study = planned(options)
     if options.chunk_to_run is not None:
@@ -41,6 +45,7 @@ def run(options):
     return code
 
 
+# Runs cases in worker processes, --jobs at a time.
 def run_cases(study, numbers, options):
     from . import jobs
 
@@ -49,6 +54,8 @@ def run_cases(study, numbers, options):
     )
 
 
+# Runs the case --case in this process and returns the exit code of `polynya run`. For a case in a packed chunk, which
+# has ended, this is the code of its result.
 def run_one(study, options):
     number = options.case
     chunk = number // study.chunk_size
@@ -68,8 +75,9 @@ def run_one(study, options):
 
 
 def planned(options):
-    """Returns the study. If the study's file is given, plans it if it is not planned yet, and refuses a plan that was
-    made from another text of the file."""
+    """Returns the planned study of a folder or of a study's file. A file that is not planned yet is planned with the
+    defaults of `plan`, but without the trial run. Raises StudyError if the file has changed what the cases set or
+    collect since it was planned."""
     given = pathlib.Path(options.study)
     if not given.is_file():
         return open_study(given)
@@ -83,6 +91,7 @@ def planned(options):
     return plan.plan_study(given, defaults)
 
 
+# Action `plan`.
 def make_plan(options):
     from . import plan
 
@@ -93,6 +102,7 @@ def make_plan(options):
     return DONE
 
 
+# Action `slurm`: writes the scripts, and submits them with --submit. Does nothing if every case has ended.
 def send(options):
     from . import slurm
 
@@ -109,6 +119,7 @@ def send(options):
     return DONE
 
 
+# Action `parallel`: prints a command for GNU parallel, which a shell can run.
 def spread(options):
     from . import slurm
 
@@ -139,6 +150,8 @@ def report(options):
     return made.report(open_study(options.study), options.players)
 
 
+# Runs an action. `words` are the arguments; by default the arguments of the process. A StudyError is printed by
+# command.run() with its own exit code; one with code 3 gets a line with the number of problems.
 def main(words=None):
     options = command_line().parse_args(words)
     actions = {

@@ -1,4 +1,5 @@
-"""Runs one case in its own folder, resumes it, or finds it finished."""
+"""Runs one case of a study in its own folder, resumes it from a checkpoint, or finds it finished. `study` is a
+folder.Study, and `number` that of the case."""
 import ctypes
 import errno
 import fcntl
@@ -17,23 +18,26 @@ from ..program import program
 from . import measures
 from .folder import RESULT, RUN, write_atomically
 
-DONE, FAILED, INPUT_OUTPUT, STOPPED = 0, 4, 5, 75
-# Value of `stopped_by` for a run that another signal or a lack of memory ended (docs/run-folder.md).
+DONE, FAILED, INPUT_OUTPUT, STOPPED = 0, 4, 5, 75  # exit codes of app/command_line/console.hpp
+# Value of `stopped_by` in summary.json from the start of a run until it ends in an orderly way. If a run that did not
+# crash has ended and still has this value, the machine is the cause, for example a lack of memory, and another try may
+# succeed (docs/run-folder.md). It must be equal to the text in io/run/run_writer.cpp.
 KILLED = "still running, or killed"
 # Signals that mean an error of the program, which would occur again. Other signals come from the machine.
 CRASHES = (signal.SIGABRT, signal.SIGSEGV, signal.SIGBUS, signal.SIGFPE, signal.SIGILL)
-KEPT_WORDS = 2000  # length of a failed run's messages that is kept [characters]
-PR_SET_PDEATHSIG = 1
+KEPT_WORDS = 2000  # a failed run's messages are kept up to this length, their end [characters]
+PR_SET_PDEATHSIG = 1  # first argument of prctl() in die_with_parent(), from <linux/prctl.h>
 LIBC = ctypes.CDLL(None)
 
 
 def die_with_parent(number):
-    """Asks the kernel to send this process a signal when its parent ends for any reason."""
+    """Asks the kernel to send this process the signal `number` when its parent ends for any reason, even SIGKILL."""
     LIBC.prctl(PR_SET_PDEATHSIG, number)
 
 
 def state_of(folder):
-    """"finished", "failed", "unfinished" or "missing", and the result if there is one."""
+    """Returns the state of the case in a folder, and its result, which is None unless it is finished or failed. The
+    state is "finished", "failed", "unfinished" (it was begun, or its result is damaged) or "missing"."""
     if not (folder / RESULT).exists():
         return ("unfinished" if (folder / RUN).exists() else "missing"), None
     try:
@@ -44,7 +48,7 @@ def state_of(folder):
 
 
 def is_result(result):
-    """Returns True if a value read from a file is the result of a case."""
+    """Returns True if a value that was read from JSON has the members that the result of a case needs."""
     if not isinstance(result, dict):
         return False
     kinds = {"finished": {"measures": dict}, "failed": {"message": str}}.get(result.get("state"))
@@ -52,9 +56,10 @@ def is_result(result):
 
 
 def run_case(study, number, stop=None, keep=None):
-    """Runs a case to its end and returns (exit code, message). A finished case returns at once. When the file
-    descriptor `stop` becomes readable, the run is stopped with a checkpoint. `keep` = "all" restores the run folder of
-    a case whose records were thinned."""
+    """Runs a case to its end and returns (exit code, message); the message is empty if there is nothing to say. When
+    the file descriptor `stop` becomes readable, the run is stopped with a checkpoint. `keep`, "all" or "summary",
+    replaces the study's own setting. A finished case returns at once, unless its run folder was removed and `keep` is
+    "all": then it runs again. A case that another process runs at the same time is refused."""
     if stop is not None and select.select([stop], [], [], 0)[0]:
         return STOPPED, ""
     folder = study.case_folder(number)
@@ -75,7 +80,9 @@ def run_case(study, number, stop=None, keep=None):
 
 
 def carry(study, number, folder, lock, stop, keep):
-    """Runs or resumes the case, then measures it and writes the result."""
+    """Runs or resumes the case, then measures it and writes the result (case.json). Returns (exit code, message). A run
+    that was stopped or killed leaves no result, so that the next call resumes it. `lock` is the file descriptor of the
+    case's folder, which is locked."""
     run, began = folder / RUN, time.monotonic()
     (folder / RESULT).unlink(missing_ok=True)
     if not is_finished(run):
@@ -106,14 +113,16 @@ def carry(study, number, folder, lock, stop, keep):
     return DONE, ""
 
 
+# Returns the members of a result that say which case it is: its number, scene, and values by path.
 def case_in_words(study, number):
     scene, values = study.case(number)
     return {"case": number, "scene": scene.stem, "set": values}
 
 
 def failed(study, number, folder, code, words):
-    """Records a failure that would occur again. A failure of the machine, such as a full disk or a lack of memory,
-    leaves the case unfinished."""
+    """Returns (exit code, message) of a failure. One that would occur again is recorded as the case's result, and
+    jobs.run_cases() then runs the case again only with --retry-failed. A failure of the machine, such as a full disk or
+    a lack of memory, is not recorded, so that the case stays unfinished."""
     words = words.strip()[-KEPT_WORDS:] or without_words(folder, code)
     is_killed = code > 0 and summary_of(folder / RUN).get("stopped_by") == KILLED
     if code == INPUT_OUTPUT or is_killed:
@@ -130,25 +139,28 @@ def without_words(folder, code):
 
 
 def gist(words):
-    """The line of a program's messages that says why it ended: its own message, otherwise the first problem of a
-    scene."""
+    """Returns the line of a program's messages that says why it ended: its first message with "polynya: ", without that
+    prefix, otherwise the first line, which is the first problem of a scene."""
     lines = words.splitlines()
     stops = [line for line in lines if line.startswith("polynya: ") and "nothing was written" not in line]
     return (stops or lines)[0].removeprefix("polynya: ")
 
 
 def summary_of(run):
-    """Summary of a run; empty if it cannot be read."""
+    """Returns summary.json of a run as a dict, which is empty if the file cannot be read."""
     try:
         return files.read_json(run / "summary.json")
     except FolderError:
         return {}
 
 
+# Returns True if the run in a folder has reached its end.
 def is_finished(run):
     return summary_of(run).get("finished") is True
 
 
+# Returns the command that runs a case: it resumes the run in the folder `run` if there is one, otherwise starts it with
+# the case's values.
 def command_of(study, number, run):
     if (run / "scene.json").exists():
         return [program(), "resume", run, "--no-map", "--progress", "none"]
@@ -160,12 +172,13 @@ def command_of(study, number, run):
 
 
 def run_program(words, lock, stop):
-    """Runs a program. Returns its exit code and its output on stderr. The program holds the case's lock as long as it
-    runs, and stops with a checkpoint if this process is killed."""
+    """Runs a program until it ends, or until `stop` becomes readable: then the program is asked to stop. Returns its
+    exit code, which is minus the signal that ended it, and its output on stderr. The program inherits the case's lock,
+    so that nobody else runs the case as long as it runs. It stops with a checkpoint if this process is killed."""
 
     def in_child():
         die_with_parent(signal.SIGHUP)
-        # Background jobs of a shell ignore them, and polynya would inherit that.
+        # Background jobs of a shell ignore these signals, and polynya would inherit that and could not be stopped.
         for number in (signal.SIGINT, signal.SIGHUP):
             signal.signal(number, signal.SIG_DFL)
 

@@ -1,4 +1,4 @@
-"""A picture with many small panels: the ice and the ships at the end of some runs."""
+"""A picture of a study's report with many small panels: the ice and the ships at the end of some runs."""
 from matplotlib.collections import PolyCollection
 
 from ..figures.page import Page, Sheet, plain
@@ -7,11 +7,13 @@ from .folder import RUN
 from .measures import rows_by_ship
 from .pictures import group_label, save
 
-COLUMNS, SMALL = 4, 6  # number of columns of panels; font size of their titles [pt]
+COLUMNS, SMALL = 4, 6  # largest number of panels beside each other; font size of their titles [pt]
 
 
 def choose(study, sample, group_by, count):
-    """Selects cases whose run is kept: the same number from each group, evenly spaced, and at most `count` in total."""
+    """Selects cases for the picture and returns their numbers: the same number from each group, evenly spaced, and at
+    most `count` in total. Only cases whose run folder is kept are selected. `group_by` is the path of a parameter, or
+    None for a single group. If there are more groups than `count`, the last groups have no case."""
     groups = sample.groups(group_by)
     each, chosen = max(1, count // len(groups)), []
     for _, cases in groups if count > 0 else []:
@@ -20,12 +22,14 @@ def choose(study, sample, group_by, count):
     return chosen[:count]
 
 
+# Returns True if the case has a run folder with frames, which `keep: summary` and archives do not have.
 def is_kept(study, number):
     return (study.case_folder(number) / RUN / "frames.bin").exists()
 
 
 def draw(study, sample, numbers, group_by, folder):
-    """Writes the picture; returns the name of its SVG."""
+    """Draws the end of each case of `numbers` in a panel and saves the picture in `folder`. All panels have the same
+    scale and range of x and y [m], which contains all ice and tracks. Returns the name of the SVG."""
     ends = [read_end(study.case_folder(number) / RUN) for number in numbers]
     columns = min(COLUMNS, len(numbers))
     rows = -(-len(numbers) // columns)
@@ -51,7 +55,8 @@ def draw(study, sample, numbers, group_by, folder):
 
 
 def read_end(folder):
-    """Rings of the ice at the end of a run, and its ships: track and waterline in the world."""
+    """Reads the end of a run: outlines of the floating floes, and for each ship with rows in forces.csv its track over
+    the whole run and its waterline, all in the world [m]. Holes of floes are left out."""
     run = Run(folder, unfinished=True, pandas=False, shapely=False)
     frame, rows = run.frame(run.end_time), rows_by_ship(run.folder / "forces.csv")
     names = [ship["name"] for ship in run.scene["ships"]]
@@ -61,6 +66,7 @@ def read_end(folder):
     return {"rings": [rings[0] for rings in floating], "ships": ships}
 
 
+# Draws what read_end() returns.
 def draw_end(axes, end):
     axes.add_collection(PolyCollection(end["rings"], facecolors="#cfe3ef", edgecolors="#5b7f95", linewidths=0.15))
     for ship in end["ships"]:

@@ -1,4 +1,5 @@
-"""The file of a study: its keys, and all checks of it (docs/studies.md)."""
+"""Reads the file of a study and checks it (docs/studies.md). Values of scene keys are not checked here; that is done
+when the study is planned."""
 import dataclasses
 import difflib
 import math
@@ -10,10 +11,13 @@ from .design import read_design
 from .expand import repeats_by_seed
 from .located_json import LocatedJson, StudyError, shortened, shown
 
-LARGEST_SEED = 2**53 - 1
-LONGEST_RANGE = 10**6  # largest number of values of a range
-LONGEST_NAME = 1000  # longest file name [characters]
+LARGEST_SEED = 2**53 - 1  # largest seed: larger integers are not exact as doubles, which JSON numbers are
+LONGEST_RANGE = 10**6  # largest number of values of a range; a mistyped step would otherwise fill the memory
+LONGEST_NAME = 1000  # longest file name of a scene [characters]
+# Names of studies and of targets, which are parts of file names and of columns.
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
+# Keys of a study, and below them the keys of its objects `collect`, `collect.management` and `report`. Any other key is
+# refused.
 KEYS = (
     "name",
     "description",
@@ -33,48 +37,53 @@ KEYS = (
 COLLECT_KEYS = ("ship", "from_s", "from_m", "loads", "quantiles", "stop_speed_m_per_s", "channel", "time_to",
                 "management")
 MANAGEMENT_KEYS = ("body", "upstream_m", "near_m", "width_m", "size_m", "from_s")
-TARGETS = ({"x_m"}, {"y_m"}, {"distance_m"}, {"point_m", "within_m"})  # alternative targets of collect.time_to
+# Keys of a target of collect.time_to, which must have one of these sets.
+TARGETS = ({"x_m"}, {"y_m"}, {"distance_m"}, {"point_m", "within_m"})
 REPORT_KEYS = ("against", "means", "exceedance", "group_by", "map", "channels")
 
 
 @dataclasses.dataclass
 class Definition:
-    """A valid study. Paths are those of scene keys; "scene" itself may be varied by a list of scenes."""
+    """A valid study. A path is that of a scene key, such as "ice.thickness_m". Cases are all combinations of scenes,
+    grid, pairs and draws, repeated with other seeds (expand.py)."""
 
-    file: str
-    name: str
-    folder: pathlib.Path  # folder in which scenes are searched for
-    scenes: list  # names as in the file
-    fixed: dict
+    file: str  # file of the study, as it was given
+    name: str  # the study's folder is studies/<name> by default
+    folder: pathlib.Path  # folder of the file, to which names of scenes and of the design are relative
+    scenes: list  # names of the scenes' files, as in the file
+    fixed: dict  # path -> value for every case ("set" of the file)
     grid: dict  # path -> values
     paired: dict  # path -> values, all of one length, including those of the design
     design: dict  # path -> values of a CSV file with one row per case
-    draw: dict  # path -> (kind, numbers)
-    draws: int
-    method: str
-    draw_seed: int
-    repetitions: int
-    seed: int
-    collect: dict
-    keep: str
-    archive: bool
-    report: dict
-    source: LocatedJson  # for problems that the check of a scene finds
+    draw: dict  # path -> (kind of distribution, its numbers), as for draws.draw()
+    draws: int  # number of random draws
+    method: str  # "independent" or "latin_hypercube"
+    draw_seed: int  # selects the draws
+    repetitions: int  # number of times that each case is run, with another scene seed each
+    seed: int  # scene seed of the first repetition
+    collect: dict  # settings of the measures
+    keep: str  # "all", or "summary" to remove the run folder of a finished case
+    archive: bool  # whether chunks are packed into one file after their cases have ended
+    report: dict  # contents of the report page
+    source: LocatedJson  # for the places of problems that the check of a scene finds
 
 
 def read_definition(file, design=None):
-    """Reads the study in a JSON file. Raises StudyError with all its problems. `design` is a CSV file that replaces the
-    study's own design."""
+    """Reads the study in a JSON file and returns its Definition. `design` is a CSV file that replaces the study's own
+    design. Raises StudyError with all problems of the study, or of the design."""
     file = pathlib.Path(file)
     return Reader(LocatedJson(file)).read(file, design)
 
 
 class Reader:
-    """Reads one study; each object is used once."""
+    """Reads one study; each object is used once. Methods that read a value report what is wrong with it and then return
+    a valid substitute, so that all problems are found in one go. `path` is the place of a value in the file, as a list
+    of keys and indices."""
 
     def __init__(self, source):
         self.source, self.problems = source, []
 
+    # Returns the Definition, or raises StudyError with all problems that were reported.
     def read(self, file, design=None):
         study = self.source.value
         if not isinstance(study, dict):
@@ -121,15 +130,18 @@ class Reader:
         return definition
 
     def design(self, study, file, given):
-        """Values of a design by path, from the study's own design or from the file `given`."""
+        """Returns the values of a design by path, from the file `given` or otherwise from the study's own design, which
+        is relative to the study's file. The result is empty without a design."""
         named = self.member(study, "design", str, "")
         if not given and not named:
             return {}
         return read_design(given or file.parent / named)
 
+    # Notes a problem of the value at a path.
     def report(self, path, message):
         self.problems.append(self.source.problem(path, message))
 
+    # Reports the keys of an object that are not known, with the most similar known key.
     def unknown_keys(self, given, known, path):
         for key in given:
             if key not in known:
@@ -138,6 +150,8 @@ class Reader:
                 meant = f'; did you mean "{near[0]}"?' if near else ""
                 self.problems.append(self.source.problem([*path, key], message + meant, of_key=True))
 
+    # Returns a member of the object `given`, which must be of the type `kind`. If it is missing or wrong, the result is
+    # the default.
     def member(self, given, key, kind, default, path=()):
         value = given.get(key, default)
         if isinstance(value, kind):
@@ -146,6 +160,8 @@ class Reader:
         self.report([*path, key], f"found {shown(value)}, allowed: {words}")
         return default
 
+    # Returns the name of the study, by default the name of its file with a hyphen for each character that is not
+    # allowed.
     def name(self, study, file):
         default = re.sub(r"[^A-Za-z0-9._-]", "-", file.stem).lstrip("._-") or "study"
         name = study.get("name", default)
@@ -157,6 +173,7 @@ class Reader:
         )
         return default
 
+    # Like member(), for a whole number from `least` to `most`.
     def whole(self, given, key, least, most, default, path=()):
         value = given.get(key, default)
         if isinstance(value, int) and not isinstance(value, bool) and least <= value <= most:
@@ -164,6 +181,7 @@ class Reader:
         self.report([*path, key], f"found {shown(value)}, allowed: a whole number from {least} to {most}")
         return default
 
+    # Like member(), for one of some choices, of which the first is the default.
     def choice(self, given, key, choices, path=()):
         value = given.get(key, choices[0])
         if value not in choices:
@@ -172,7 +190,8 @@ class Reader:
         return value
 
     def values(self, spec, path):
-        """A list as it is, or the values of a range."""
+        """Returns the values of a key of `grid` or `paired`: a list as it is, or the values of a range, which is an
+        object with from, to and either count (with linear or log spacing) or step."""
         if isinstance(spec, list):
             if not spec:
                 self.report(path, "found an empty list, allowed: at least one value")
@@ -199,12 +218,15 @@ class Reader:
             return self.finite([low * (high / low) ** (i / (count - 1)) for i in range(count)], path)
         return self.finite([low + (high - low) * i / (count - 1) for i in range(count)], path)
 
+    # Returns the values of a range if they are finite. Others result from ends near the largest doubles.
     def finite(self, values, path):
         if all(map(math.isfinite, values)):
             return values
         self.report(path, "found ends that are too far apart, allowed: a range of finite values")
         return [None]
 
+    # Returns the values of a range with a step, which may be negative. `high` is the last value if a whole number of
+    # steps leads to it within rounding. Values are rounded to 12 decimals, so that 0.1 + 2 · 0.1 is 0.3.
     def stepped(self, low, high, spec, path):
         step = spec["step"]
         if not draws.is_number(step) or step == 0 or not 0 <= (high - low) / step < LONGEST_RANGE:
@@ -214,6 +236,7 @@ class Reader:
         values = [low + i * step for i in range(math.floor((high - low) / step * (1 + 1e-12) + 1e-9) + 1)]
         return [round(value, 12) for value in values]
 
+    # Returns the valid distributions of `draw` by path, as (kind, numbers).
     def distributions(self, draw):
         self.unknown_keys(draw, ("count", "method", "seed", "of"), ["draw"])
         found = {}
@@ -234,6 +257,8 @@ class Reader:
                 found[path] = (kind, numbers)
         return found
 
+    # Returns the settings of the measures after checking each of them. Missing ones get their defaults where they are
+    # used.
     def collect(self, study):
         collect = self.member(study, "collect", dict, {})
         self.unknown_keys(collect, COLLECT_KEYS, ["collect"])
@@ -260,7 +285,7 @@ class Reader:
         return collect
 
     def time_to(self, name, target, path):
-        """A target with that name: its line, distance or position."""
+        """Checks a target of collect.time_to: its name, and its line, distance, or position with a radius [m]."""
         if not NAME.fullmatch(name):
             found = shown(name)
             allowed = "a name of letters, digits and . _ -, starting with a letter or digit"
@@ -277,6 +302,8 @@ class Reader:
                 allowed = "a number [m]" if key in ("x_m", "y_m") else "a number > 0 [m]"
                 self.report([*path, key], f"found {shown(value)}, allowed: {allowed}")
 
+    # Returns the settings of the report page after checking each of them. Names of measures are not checked, because
+    # they are known only after a case has run.
     def report_keys(self, study):
         report = self.member(study, "report", dict, {})
         self.unknown_keys(report, REPORT_KEYS, ["report"])
@@ -290,6 +317,8 @@ class Reader:
         self.whole(report, "channels", 0, 100, 12, ["report"])
         return report
 
+    # Reports lists of `paired` of different lengths, draws without a count, and repetitions that would be copies
+    # because the study sets the seed itself.
     def check_lengths(self, definition):
         lengths = {path: len(values) for path, values in definition.paired.items()}
         if len(set(lengths.values())) > 1:
@@ -308,6 +337,7 @@ class Reader:
                 f"be copies",
             )
 
+    # Reports a path that is set twice, or whose part or whole is also set, and the path "scene".
     def check_paths(self, definition):
         blocks = {
             "set": definition.fixed,

@@ -1,5 +1,5 @@
-"""`polynya study evaluate`: computes the measures of a design's cases, for programs that choose further cases from
-them."""
+"""`polynya study evaluate`: runs the cases of a design, a CSV file with one row per case, and writes their measures. It
+is made for programs that choose the next cases from the measures of the previous ones, such as optimisers."""
 import argparse
 import hashlib
 import pathlib
@@ -12,7 +12,9 @@ from .definition import read_definition
 
 
 def folder_of(options, definition):
-    """Folder for the cases. The same design finds its cases again; another design has another folder."""
+    """Returns the folder for the cases: `options.folder`, or a folder below studies/ named by a hash of the texts of
+    the study and of the design. With the same texts finished cases are reused; other texts have another folder. The
+    scenes are not part of the hash: if one was changed after cases had ended, planning refuses the folder."""
     if options.folder:
         return pathlib.Path(options.folder)
     digest = hashlib.sha256((read_text(options.study) + "\0" + read_text(options.design)).encode()).hexdigest()
@@ -20,7 +22,9 @@ def folder_of(options, definition):
 
 
 def evaluate(options):
-    """Plans, runs and gathers a design, and writes the table to the requested file. Returns the exit code of gather."""
+    """Plans, runs and gathers a design, and copies the table to the file `options.measures`. A case that has failed
+    before is not run again. Returns the exit code of gather: DONE only if every case is finished. The table is written
+    in any case; rows of other cases have no measures."""
     folder = folder_of(options, read_definition(options.study, options.design))
     planning = argparse.Namespace(out=folder, chunk=None, repetitions=None, most=10_000_000, trial_seconds=0,
                                   check_seeds=False, jobs=options.jobs, design=options.design)
