@@ -57,8 +57,7 @@ def leaf_in_words(path, value):
 
 
 def short(words, longest=LONGEST):
-    """Replaces the middle of a text by "…" if it has more than `longest` characters. Both ends stay, because names
-    often differ there."""
+    """Replaces the middle of a text by "…" if it has more than `longest` characters. Both ends stay."""
     if len(words) <= longest:
         return words
     head = (longest - 1) // 2
