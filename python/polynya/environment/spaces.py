@@ -6,7 +6,7 @@ try:
     from gymnasium import Env
     from gymnasium.spaces import Box, Dict
 
-    HAS_GYMNASIUM = True  # whether environments are those of Gymnasium, which libraries for training require
+    HAS_GYMNASIUM = True  # true: environments derive from Gymnasium's classes, as libraries for training require
 except ImportError:
     HAS_GYMNASIUM = False
 

@@ -6,7 +6,7 @@ import sys
 
 # Colour and dashes of the published formulas, by the `source` of a curve. They are the last curves of a figure.
 FORMS = {"Nevel": ("#000000", "--"), "Kashtelyan": ("#777777", ":")}
-# Colours of the curves of the database: that of the load itself, then those of at most three neighbouring loads. A
+# Colours of the curves of the database: first the load itself, then at most three neighbouring loads. A
 # figure with more curves of the database than colours would lack its last curves.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#aa4499")
 

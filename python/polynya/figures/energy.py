@@ -7,8 +7,8 @@ from .loads import prefixed
 from .page import POINT, Page, Sheet, in_words, plain
 from .subjects import all_labelled, colour_of
 
-# Keys of `energy` without their ending _J, and the words of the figure: terms that count as sources, then those that
-# count as sinks. The order is that of the figure. The sum of the sources is that of the sinks.
+# Keys of `energy` without their ending _J, and the words of the figure: the sources, then the sinks, in the order in
+# which the figure shows them. Sources and sinks have the same sum.
 SOURCES = {"initial": "motion at the start", "thrust": "thrust and holding", "current": "current",
            "wind": "wind", "walls": "loads of walls", "initial_stored": "in moorings at the start",
            "mooring_ground": "moorings: work of the ground", "mooring_separation": "moorings: overlaps pushed apart",

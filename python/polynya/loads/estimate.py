@@ -152,7 +152,7 @@ class Answer:
     is_extrapolated: bool  #: true if the period is longer than those for which the intervals were tested
     seen_low_N: float  #: limits between observed peaks, without a fit
     seen_high_N: float  #: infinite if too few peaks were observed for it
-    #: Length of record for an interval of the requested half-width; None without a fit that could tell it.
+    #: Length of record for an interval of the requested half-width; None if no fit gives it.
     record_needed_h: Optional[float]
     least_record_h: Optional[float]  #: a tenth of the period; None without a fit, whose value it could allow
     reasons: tuple = ()  #: reasons why there is no value

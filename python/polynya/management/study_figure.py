@@ -12,7 +12,8 @@ from .study import MEASURES, UNMANAGED
 # Styles of the lines of patterns: solid with circles in each colour, then dashed with squares.
 LINES = [{"color": colour, "marker": mark, "linestyle": dash}
          for dash, mark in (("-", "o"), ("--", "s")) for colour in COLOURS]
-# Measures that draw_study() shows, in its order, and their words on the axes. Each needs such words to be drawn.
+# Measures that draw_study() shows, in its order, and their words on the axes. draw_ranking() uses these words too, so
+# every measure of study.MEASURES must be among them.
 SHOWN = {
     "management_ice_load_mean_N": "mean load of the ice",
     "management_ice_load_q99_N": "load of the ice exceeded 1 % of the time",

@@ -14,7 +14,7 @@ from .picture import Picture
 WANTED = 30.0  # approximate duration of a film whose speed is not given [s]; longer films are slower and larger
 # Pictures per second of the film. GIFs have half as many, because each picture takes more space in them.
 RATES = {".mp4": 25.0, ".gif": 12.5}
-# Endings of file names: those of films, and that of a single picture.
+# Endings of file names: .mp4 and .gif for films, .png for a single picture.
 SUFFIXES = (*RATES, ".png")
 
 

@@ -32,7 +32,8 @@ def particulars(ship, hull, engine, ice, sources, is_given):
     """Returns the list of all Particulars on which the formulas depend. `hull`, `engine` and `ice` are the inputs of
     formulas.level_ice_speeds(), made from `ship` of the scene. `sources` has the source of each key of the ship,
     `is_given` for "flexural_strength" and "friction" whether the command line had them. If the bollard pull is stated,
-    power, diameter and number of propellers do not matter and are left out."""
+    power, diameter and number of propellers do not matter and are left out. The number is also left out if it is 3,
+    because there is no factor for 4."""
     found = []
 
     def of_hull(key, name):

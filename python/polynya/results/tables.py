@@ -8,7 +8,7 @@ import numpy
 from polynya import files
 from polynya.errors import FolderError, how_to_get
 
-NONE = -1  #: whole number that stands for an absent one, such as the id of a floe where there is none
+NONE = -1  #: value of an absent whole number, such as the id of a floe if a body is no floe
 LARGEST_WHOLE = 2.0**53  #: largest whole number of a table; up to it doubles have every whole number exactly
 #: Columns of texts, in all tables of a run. A column of texts that is missing here is refused, because its cells are no
 #: numbers.
@@ -66,8 +66,8 @@ def read_csv(path):
     return files.Columns({name: column(name, cells, path) for name, cells in files.read_cells(path).items()}, path)
 
 
-#: First columns of events, which are there even if no event has them, and their types. Other members of events become
-#: columns after them, in the order in which events first have them.
+#: First columns of events and their types. They are there even if no event has them, and so are x_m, y_m, normal_x and
+#: normal_y after them. Other members become columns after these, in the order in which events first have them.
 FIRST = {"t_s": float, "kind": str, "ship": str, "by_ship": str, "floe": int, "parent": int,
          "by_floe": int, "children": tuple}
 
