@@ -7,16 +7,19 @@ import re
 import sys
 import textwrap
 
-COLUMN, WIDTH = 30, 100  # column in which meanings begin, and width of lines [characters]
+COLUMN, WIDTH = 30, 100  # of --help: column in which meanings begin, and width of lines [characters]
 
 
 def meant_by(word, names):
+    """The end of a message on a mistyped word, with the name that is most like it; empty if none is."""
     near = difflib.get_close_matches(word, names, 1)
     return f"; did you mean {near[0]}?" if near else ""
 
 
 def number(least=-math.inf, most=math.inf, unit="", kind=float, is_open=False):
-    """Returns a reader of finite numbers from `least` to `most`, without these limits if `is_open`."""
+    """Returns a function that reads a finite number from a text, for the `type` of an option. Values from `least` to
+    `most` are allowed; if `is_open`, the limits themselves are not. `unit` is that of the number in messages, and
+    `kind` is float or int. The function raises argparse.ArgumentTypeError with the text and what is allowed."""
     signs = (">", "<") if is_open else ("≥", "≤")
     ends = [f"{sign} {end:g}" for sign, end in zip(signs, (least, most)) if math.isfinite(end)]
     what = "a whole number" if kind is int else "a number"
@@ -35,11 +38,12 @@ def number(least=-math.inf, most=math.inf, unit="", kind=float, is_open=False):
     return read
 
 
-WHOLE = number(1, kind=int)
+WHOLE = number(1, kind=int)  # reads a whole number from 1
 
 
 def numbers(one=number(), count=None):
-    """Returns a reader of lists of numbers, separated by commas, with `count` numbers if it is given."""
+    """Returns a function that reads a list of numbers, separated by commas. Each is read by `one`. There must be
+    `count` numbers, if that is given."""
 
     def read(text):
         values = [one(part) for part in text.split(",")]
@@ -51,7 +55,7 @@ def numbers(one=number(), count=None):
 
 
 def choice(names):
-    """Returns a reader that accepts one of these names."""
+    """Returns a function that accepts one of these names."""
 
     def read(text):
         if text not in names:
@@ -62,12 +66,14 @@ def choice(names):
 
 
 def choices(names):
-    """Returns a reader of lists of these names, separated by commas."""
+    """Returns a function that reads a list of these names, separated by commas."""
     return lambda text: [choice(names)(part) for part in text.split(",")]
 
 
 class Parser(argparse.ArgumentParser):
-    """Command line of `prog`: its purpose, lines of examples without "polynya", and text after the options."""
+    """Command line of `prog`, such as "polynya loads", in the form of the commands in C++. --help shows `meaning`, its
+    purpose, without a full stop; `examples`, lines without "polynya"; then the options, and `rest` after them. Options
+    cannot be shortened. Errors end the process with exit code 2."""
 
     def __init__(self, prog, meaning, examples, rest=""):
         super().__init__(prog=prog, allow_abbrev=False, add_help=False)
@@ -75,11 +81,13 @@ class Parser(argparse.ArgumentParser):
         self.add_argument("-h", "--help", action="help", help="Print this help message and exit")
 
     def add(self, name, meaning, **more):
-        """Adds an option or a positional. A choice shows its names unless it has a metavar."""
+        """Adds an option or a positional argument. `meaning` is its text in --help. `more` are arguments of
+        add_argument(); --help shows the name of a value only if `metavar` states it."""
         return self.add_argument(name, help=meaning, **more)
 
     def add_actions(self):
-        """Adds commands to this command."""
+        """Makes this a command with actions, such as `polynya study plan`, one of which must be given. Returns the
+        object with add_parser() for the parsers of actions. The parsed options name the chosen one as `action`."""
         self.actions_of = self.add_subparsers(dest="action", metavar="ACTION", required=True)
         return self.actions_of
 
@@ -92,6 +100,7 @@ class Parser(argparse.ArgumentParser):
         return [argument for argument in self._actions if argument is not self.actions_of]
 
     def format_help(self):
+        """The text of --help: purpose, examples, usage, positionals, options and actions."""
         positionals = [argument for argument in self.arguments() if not argument.option_strings]
         options = [argument for argument in self.arguments() if argument.option_strings]
         names = [f"{argument.metavar}{'...' if argument.nargs == '+' else ''}" for argument in positionals]
@@ -109,6 +118,8 @@ class Parser(argparse.ArgumentParser):
         return "Examples:\n" + "".join(f"  polynya {example}\n" for example in self.examples)
 
     def parse_known_args(self, args=None, namespace=None):
+        """Parses as argparse does, but unknown words are an error, with the option that may have been meant. argparse
+        uses this method also for the words of an action."""
         found, rest = super().parse_known_args(self.joined(sys.argv[1:] if args is None else args), namespace)
         if rest:
             names = [name for argument in self.arguments() for name in argument.option_strings]
@@ -131,6 +142,7 @@ class Parser(argparse.ArgumentParser):
         return found
 
     def error(self, message):
+        """Ends the process with exit code 2 after a message on stderr."""
         self.exit(2, f"{self.prog}: {self.in_plain_words(message)}\n{self.prog} --help explains its options\n")
 
     def in_plain_words(self, message):
@@ -150,13 +162,15 @@ class Parser(argparse.ArgumentParser):
 
 
 def spelled(argument):
+    """The name of an argument in --help, such as "--out DIR" or "-h,--help"."""
     if not argument.option_strings:
         return argument.metavar
     return ",".join(argument.option_strings) + (f" {argument.metavar}" if argument.metavar else "")
 
 
 def entry(name, meaning):
-    """Lines of a list: a name, and its meaning in a column."""
+    """Lines of a list of --help: a name, and its meaning in the column COLUMN, broken into lines of at most WIDTH
+    characters. A long name has its own line."""
     lines = textwrap.wrap(meaning, WIDTH - COLUMN, break_long_words=False)
     head = f"  {name}"
     first = f"{head}\n{'':{COLUMN}}" if len(head) >= COLUMN else f"{head:{COLUMN}}"

@@ -1,11 +1,12 @@
 """Published formulas for the resistance and thrust of a ship in ice, for comparison. SI units, angles in radians.
 
-Keys in brackets are those of docs/references.md. The simulation itself uses none of the formulas except the net
-thrust."""
+Keys in brackets are those of docs/references.md; "recall" marks formulas from memory, which were not compared with the
+publication. Of these formulas the simulation uses only those for bollard pull, net thrust and Lindqvist's resistance of
+ice under the hull, each in its own implementation in C++."""
 import dataclasses
 import math
 
-G = 9.81
+G = 9.81  # acceleration of gravity [m/s²]
 KNOT = 1852 / 3600  # [m/s]
 
 
@@ -22,12 +23,12 @@ class Hull:
 
     @property
     def bow(self):
-        """Length of the bow of a wedge-shaped bow [m]."""
+        """Length of a wedge-shaped bow, from the stem to the largest beam [m]."""
         return 0.5 * self.beam / math.tan(self.entrance)
 
     @property
     def parallel(self):
-        """Length of the parallel midbody, which ends in a square stern [m]."""
+        """Length of the parallel midbody, from the bow to a square stern [m]."""
         return self.length - self.bow
 
 
@@ -40,21 +41,24 @@ def hull_of(ship):
 
 @dataclasses.dataclass(frozen=True)
 class Ice:
-    """Level ice in water. Thickness [m], strength and Young's modulus [Pa], densities [kg/m³]."""
+    """Level ice in water."""
 
-    thickness: float
-    flexural_strength: float = 0.8e6
-    friction: float = 0.2
-    density: float = 900
-    water_density: float = 1000
-    young: float = 5.4e9
-    poisson: float = 0.3
+    thickness: float  # [m]
+    flexural_strength: float = 0.8e6  # [Pa]
+    friction: float = 0.2  # coefficient of friction between hull and ice [-]
+    density: float = 900  # [kg/m³]
+    water_density: float = 1000  # [kg/m³]
+    young: float = 5.4e9  # Young's modulus [Pa]
+    poisson: float = 0.3  # Poisson's ratio [-]
 
 
 def lindqvist(hull, ice, speed):
-    """Crushing, bending and submersion of [Lindqvist1989] (recall), each with its factor of speed [N].
+    """The three parts of the resistance of [Lindqvist1989] (recall) at a speed [m/s], each with its factor of speed
+    [N]: crushing, bending and submersion. The resistance is their sum,
 
-    R = (R_c + R_b)(1 + 1.4 v/√(g h)) + R_s (1 + 9.4 v/√(g L))."""
+    R = (R_c + R_b)(1 + 1.4 v/√(g h)) + R_s (1 + 9.4 v/√(g L)).
+
+    Crushing is infinite if the hull cannot press the ice down."""
     stem, entrance, mu, h = hull.stem, hull.entrance, ice.friction, ice.thickness
     psi = math.atan(math.tan(stem) / math.sin(entrance))
     # Vertical share of the ice force. It is negative if the stem is so steep or rough that it only crushes the ice.
@@ -109,16 +113,17 @@ def slide(hull):
 
 
 def formula_under_hull(hull, ice, speed, has_factor=True):
-    """The part of the model's resistance in level ice that is Lindqvist's formula for ice under the hull [N]: R_s,
-    which grows with speed behind the bow alone (docs/theory/under-hull.md). `has_factor`: whether it grows at all."""
+    """The part of the simulated resistance in level ice that comes from Lindqvist's formula for ice under the hull [N]:
+    R_s, of which only friction behind the bow grows with speed (docs/theory/under-hull.md). `has_factor` is false for
+    hulls on which it does not grow at all."""
     behind_bow = max(0.0, slide(hull) - hull.draught / math.tan(hull.stem))
     growth = ice.friction * behind_bow * submersion_growth(hull, speed) if has_factor else 0
     return lift(hull, ice) * (rise(hull) + ice.friction * slide(hull) + growth)
 
 
 def riska(hull, ice, speed, bow=None, parallel=None):
-    """Resistance C1 + C2 v of [Riska1997] [N]. Lengths of the bow and the parallel midbody are those of the wedge if
-    not given."""
+    """Resistance C1 + C2 v of [Riska1997] at a speed [m/s] [N]. `bow` and `parallel` are the lengths of the bow and the
+    parallel midbody [m]; if not given, they are those of a wedge-shaped bow."""
     h, b, t, length = ice.thickness, hull.beam, hull.draught, hull.length
     bow = hull.bow if bow is None else bow
     parallel = hull.parallel if parallel is None else parallel
@@ -133,7 +138,8 @@ def riska(hull, ice, speed, bow=None, parallel=None):
 
 
 def spencer_jones(hull, ice, speed):
-    """Resistance by strength number and Froude number [SpencerJones2001] (recall) [N]. Needs speed > 0."""
+    """Resistance by strength number and Froude number [SpencerJones2001] (recall) at a speed [m/s] [N]. The speed must
+    be above 0."""
     h, b = ice.thickness, hull.beam
     strength = speed / math.sqrt(ice.flexural_strength * h / (ice.density * b))
     froude = speed / math.sqrt(G * h)
@@ -141,25 +147,28 @@ def spencer_jones(hull, ice, speed):
     return breaking + 0.5 * (ice.water_density - ice.density) * G * h * b * hull.draught
 
 
-PULL_OF_PROPELLERS = {1: 0.78, 2: 0.98, 3: 1.12}  # K_e by number of propellers
+# Factor K_e of the bollard pull by number of propellers [kN/(kW m)^⅔]. At the same power in all, more propellers pull
+# more.
+PULL_OF_PROPELLERS = {1: 0.78, 2: 0.98, 3: 1.12}
 
 
 def bollard_pull(power, diameter, propellers, has_nozzles=False):
-    """Bollard pull K_e (P D)^⅔ [N]. P is the power of all propellers [W], D the diameter of one [m]; K_e is 0.78, 0.98
-    and 1.12 for 1, 2 and 3 propellers."""
+    """Bollard pull K_e (P D)^⅔ [N], the thrust of all propellers at rest. P is the power of all propellers [W], D the
+    diameter of one [m]. `propellers` is 1, 2 or 3. Nozzles multiply the pull by 1.4."""
     factor = PULL_OF_PROPELLERS[propellers] * (1.4 if has_nozzles else 1)
     return 1e3 * factor * (1e-3 * power * diameter) ** (2 / 3)
 
 
 def net_thrust(bollard, open_water_speed, speed):
-    """Thrust left for breaking ice, T_B [1 − v/(3 v_ow) − ⅔ (v/v_ow)²] [N]."""
+    """Thrust that is left for breaking ice at a speed v [m/s], T_B [1 − v/(3 v_ow) − ⅔ (v/v_ow)²] [N]. T_B is the
+    bollard pull [N], and v_ow the speed in open water [m/s], at which nothing is left."""
     share = speed / open_water_speed
     return bollard * (1 - share / 3 - 2 / 3 * share**2)
 
 
 def equilibrium(bollard, open_water_speed, resistance):
-    """The speed at which the net thrust equals resistance(speed) [m/s]; 0 if the resistance at rest is larger than the
-    thrust."""
+    """The speed at which the net thrust equals the function resistance(speed) [m/s], by bisection to 1e-9 m/s. It is 0
+    if the resistance at 1 mm/s is not below the thrust; not at rest, where some formulas are undefined."""
 
     def excess(speed):
         return net_thrust(bollard, open_water_speed, speed) - resistance(speed)
@@ -174,8 +183,8 @@ def equilibrium(bollard, open_water_speed, resistance):
 
 
 def level_ice_speeds(hull, engine, ice):
-    """The speeds [m/s] at which published resistances equal the net thrust of an engine, given as a mapping with
-    bollard_pull_N and open_water_speed_m_per_s."""
+    """The speeds {formula: speed} [m/s] that a ship reaches under full power by the published resistances. `engine` is
+    a mapping with bollard_pull_N and open_water_speed_m_per_s."""
     resistances = {
         "lindqvist": lambda v: sum(lindqvist(hull, ice, v)),
         "riska": lambda v: riska(hull, ice, v),

@@ -1,14 +1,16 @@
-"""Short names of values, runs and cases, formed from their differences."""
+"""Short names of values, runs and cases for figures and tables, formed from what differs between them."""
 from __future__ import annotations
 
 import json
 import pathlib
 
-LONGEST = 40  #: largest length of a name [characters]; longer ones are shortened in the middle
+#: Largest length of a name [characters]; longer ones are shortened in the middle. Larger: legends take more room.
+LONGEST = 40
 
 
 def parsed(value):
-    """The value of a table's cell: parsed JSON if the cell is an object or a list, otherwise the cell itself."""
+    """The value of a cell of a study's table: parsed JSON if the cell is the text of an object or a list, otherwise the
+    cell itself, also if the text is no JSON."""
     if isinstance(value, str) and value[:1] in ("{", "["):
         try:
             return json.loads(value)
@@ -18,7 +20,8 @@ def parsed(value):
 
 
 def leaves(value, path=()):
-    """{path: value} of all numbers, texts, and empty lists or objects within a JSON value."""
+    """{path: value} of all numbers, texts, truth values, nulls, and empty lists or objects within a JSON value. A path
+    is a tuple of keys and indices; `path` is that of the value itself."""
     if isinstance(value, dict) and value:
         return {at: leaf for key, item in value.items() for at, leaf in leaves(item, (*path, key)).items()}
     if isinstance(value, list) and value:
@@ -27,19 +30,21 @@ def leaves(value, path=()):
 
 
 def number_in_words(value):
-    """A number with up to six digits; true and false as in JSON."""
+    """A number with up to six significant digits, a truth value or null as in JSON, and any other value as a text."""
     if isinstance(value, bool) or value is None:
         return json.dumps(value)
     return f"{value:.6g}" if isinstance(value, (int, float)) else str(value)
 
 
-#: Endings of keys that state a unit, and the unit for people.
+#: Endings of keys that state a unit, without their underscore, and the unit for people. If several endings fit, the
+#: longest one counts. Other endings remain a part of the name.
 UNITS = {"m_per_s": "m/s", "deg": "°", "Pa": "Pa", "N": "N", "Nm": "N m", "J": "J", "kg": "kg", "MW": "MW", "m2": "m²",
          "m": "m", "s": "s"}
 
 
 def leaf_in_words(path, value):
-    """"depth 120 m" for depth_m; a text is its own name, such as "circular" for pattern."""
+    """Describes one member of a value by its key and value: "depth 120 m" for depth_m. A text is its own name, such as
+    "circular" for pattern."""
     words = number_in_words(value) if not isinstance(value, (list, dict)) else json.dumps(value)
     key = next((part for part in reversed(path) if isinstance(part, str)), "")
     if not key or (isinstance(value, str) and value):
@@ -52,7 +57,7 @@ def leaf_in_words(path, value):
 
 
 def short(words, longest=LONGEST):
-    """Shortens a text in the middle if it is too long."""
+    """Replaces the middle of a text by "…" if it has more than `longest` characters. Both ends stay."""
     if len(words) <= longest:
         return words
     head = (longest - 1) // 2
@@ -60,8 +65,10 @@ def short(words, longest=LONGEST):
 
 
 def telling_paths(flat):
-    """The smallest set of differing leaves that distinguishes all values. The leaf that forms most groups is chosen
-    first, then the next. Texts are chosen before numbers, because they are better names."""
+    """Paths of a few leaves that together distinguish as many of the values as possible. `flat` has the leaves of each
+    value. The path that distinguishes most values is chosen first, then that which together with it distinguishes most,
+    and so on; so the set is small, but perhaps not the smallest. Among equal paths those with texts are preferred,
+    because they are better names, and then the first ones."""
     paths = list(dict.fromkeys(path for leaf in flat for path in leaf))
     differing = [path for path in paths if len({repr(leaf.get(path)) for leaf in flat}) > 1]
     chosen, groups = [], 1
@@ -81,7 +88,8 @@ def telling_paths(flat):
 
 
 def name_of_leaves(flat, chosen):
-    """Describes a value by its chosen leaves; by the path to its own leaves if it has none of the chosen ones."""
+    """Describes a value with the leaves `flat` by those at the paths `chosen`. If it has none of these, its outermost
+    keys are its name, or "none" if there are none."""
     found = [leaf_in_words(path, flat[path]) for path in chosen if path in flat]
     if found:
         return ", ".join(found)
@@ -90,8 +98,9 @@ def name_of_leaves(flat, chosen):
 
 
 def names_of(values):
-    """{value: name} of the different values of a parameter. Numbers and texts are their own names. Objects and lists
-    are named by the fewest of their members that distinguish them."""
+    """{value: name} of the different values of a parameter, which are cells of a table. If all are numbers or texts, or
+    all are lists of these, they are their own names. Otherwise they are named by a few of their members that
+    distinguish them (telling_paths()). Equal names get numbers."""
     different = list(dict.fromkeys(values))
     read = {value: parsed(value) for value in different}
     if not any(isinstance(item, (dict, list)) for item in read.values()):
@@ -108,7 +117,7 @@ def names_of(values):
 
 
 def unique(names):
-    """Adds numbers to names that several values have."""
+    """Adds numbers to names that several values have: "a (1)", "a (2)". `names` is {value: name}."""
     count, found = {}, {}
     taken = list(names.values())
     for value, name in names.items():
@@ -118,8 +127,9 @@ def unique(names):
 
 
 def names_of_folders(folders):
-    """Names of run folders: the fewest of their last path components that distinguish them, without final components
-    that all share. A/run and B/run become A and B; cases of a study are named by number."""
+    """Names of run folders, in their order: as many of their last path components as distinguish them, without final
+    components that all share. A/run and B/run become A and B. A name of six digits is that of a study's case, and
+    becomes "case 137". The same folder given twice gets numbers."""
     parts = [list(pathlib.Path(folder).resolve().parts) for folder in folders]
     is_told_apart = len(set(map(tuple, parts))) > 1
     while all(len(part) > 2 for part in parts) and len({part[-1] for part in parts}) == 1 and (

@@ -2,13 +2,14 @@
 
 
 def plain(value):
-    """A number with three digits, without an exponent: 0.0123, 1250, 40000."""
+    """A number rounded to three significant digits: 0.0123, 1250, 40000. Only values below 0.0001 have an exponent."""
     rounded = float(f"{value:.3g}")
     return f"{rounded:.0f}" if abs(rounded) >= 100 else f"{rounded:.4g}"
 
 
 def in_hours(value):
-    """A duration given in hours, in a suitable unit: 90 s, 12 min, 3.5 h."""
+    """A duration given in hours, in seconds below 2 min, in minutes below 1 h, otherwise in hours: 90 s, 12 min, 3.5 h.
+    The limit for minutes is a little below 1 h, so that a duration which would round to 60 min is shown as 1 h."""
     for most, unit, name in ((1 / 30, 3600, "s"), (0.9995, 60, "min")):
         if value < most:
             return f"{plain(value * unit)} {name}"
@@ -16,7 +17,7 @@ def in_hours(value):
 
 
 def force(value):
-    """A force given in N, in a suitable unit: 850 N, 12.5 kN, 3.28 MN."""
+    """A force given in N, in N, kN or MN with three significant digits: 850 N, 12.5 kN, 3.28 MN."""
     for factor, name in ((1e6, "MN"), (1e3, "kN")):
         if abs(value) >= factor:
             return f"{value / factor:.3g} {name}"

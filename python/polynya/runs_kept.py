@@ -1,4 +1,5 @@
-"""Runs of scenes that commands make. Finished runs are kept, and reused if the scene is the same."""
+"""Runs of scenes that commands write themselves. Finished runs are kept on the disk, and reused if a command
+needs the same scene again."""
 import json
 import subprocess
 
@@ -7,20 +8,21 @@ from .study.case import DONE, STOPPED, is_finished
 
 
 class RunFailed(Exception):
-    pass
+    """Raised if `polynya run` fails. The text has the scene's file, the exit code and the messages of the program."""
 
 
 def kept_run(program, folder, name, scene, has_map=True):
-    """Returns the run's folder, folder/name, after running the scene if it has no finished run yet.
-
-    With `has_map` the run has a picture of its end.
-    """
+    """Returns the run folder `folder`/`name` of a scene, given as a dict, and runs the scene if needed. The run is
+    reused if it is finished and `folder`/`name`.json, a copy of its scene, has not changed; the version of the program
+    that made it is not compared. `program` is the path of polynya, and `folder` must exist. With `has_map` a new run
+    gets a picture of its last frame. Raises RunFailed, or KeyboardInterrupt if the run was stopped."""
     path, run = folder / (name + ".json"), folder / name
     text = json.dumps(scene, indent=1)
     if is_finished(run) and path.is_file() and path.read_text(encoding="utf-8") == text:
         return run
     with writing(path) as file:
         file.write(text)
+    # Each run uses one thread, because the callers start several runs at the same time.
     done = subprocess.run(
         [program, "run", path, "--out", run, "--overwrite", "--progress", "none", "--threads", "1"]
         + ([] if has_map else ["--no-map"]),

@@ -1,16 +1,18 @@
-"""Gymnasium's base class and spaces, or the parts of them that an environment needs if Gymnasium is not installed."""
+"""Gymnasium's base classes and spaces, or replacements with the same names if Gymnasium is not installed. The
+replacements have only the parts that the environments of this package need."""
 import numpy
 
 try:
     from gymnasium import Env
     from gymnasium.spaces import Box, Dict
 
-    HAS_GYMNASIUM = True
+    HAS_GYMNASIUM = True  # true: environments derive from Gymnasium's classes, as libraries for training require
 except ImportError:
     HAS_GYMNASIUM = False
 
     class Box:
-        """Arrays of one shape with bounds."""
+        """A space of arrays of one shape and type. Each element has a lower and an upper bound, which are part of the
+        space and may be infinite."""
 
         def __init__(self, low, high, shape, dtype=numpy.float32):
             self.shape, self.dtype = tuple(shape), numpy.dtype(dtype)
@@ -23,7 +25,8 @@ except ImportError:
             return [seed]
 
         def sample(self):
-            """Returns a sample, uniform between the bounds, or normal where there are none."""
+            """Returns a random array: uniform between the bounds of an element, or standard normal if one of its bounds
+            is infinite."""
             bounded = numpy.isfinite(self.low) & numpy.isfinite(self.high)
             even = self._random.uniform(numpy.where(bounded, self.low, 0), numpy.where(bounded, self.high, 1))
             return numpy.where(bounded, even, self._random.normal(size=self.shape)).astype(self.dtype)
@@ -36,7 +39,7 @@ except ImportError:
             return f"Box({self.low.min()}, {self.high.max()}, {self.shape}, {self.dtype})"
 
     class Dict(dict):
-        """Spaces by name."""
+        """A space of dicts with an array of each space by name."""
 
         def __init__(self, spaces):
             super().__init__(spaces)
@@ -54,7 +57,7 @@ except ImportError:
             return all(space.contains(x[name]) for name, space in self.items())
 
     class Env:
-        """Like Gymnasium's class, without its registry."""
+        """Like gymnasium.Env, but without the registry that makes environments by their names."""
 
         metadata = {"render_modes": []}
         render_mode = None
@@ -91,7 +94,8 @@ try:
 except ImportError:
 
     class VectorEnv:
-        """Like Gymnasium's class."""
+        """Like gymnasium.vector.VectorEnv, the base class of environments that run in parallel. It is also used with a
+        Gymnasium that lacks it."""
 
         @property
         def unwrapped(self):
@@ -104,7 +108,7 @@ except ImportError:
             self.close()
 
     def batch_space(space, n):
-        """Returns the space of n values of a space, along a first axis."""
+        """Returns the space of n values of a space, stacked along a new first axis; for dicts by name."""
         if isinstance(space, Dict):
             return Dict({name: batch_space(one, n) for name, one in space.spaces.items()})
         batched = Box(0, 1, (n, *space.shape), space.dtype)

@@ -1,14 +1,19 @@
-"""Slices of an icebreaking database: `polynya database show --svg DIR` (polynya.command starts it)."""
+"""Draws slices of an icebreaking database for `polynya database show --svg DIR` (polynya.command starts it). The
+program writes the curves of the figures to a JSON file (analysis/database_slices.hpp)."""
 import json
 import os
 import sys
 
+# Colour and dashes of the published formulas, by the `source` of a curve. They are the last curves of a figure.
 FORMS = {"Nevel": ("#000000", "--"), "Kashtelyan": ("#777777", ":")}
+# Colours of the curves of the database: first the load itself, then at most three neighbouring loads. A
+# figure with more curves of the database than colours would lack its last curves.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#aa4499")
 
 
 def draw(figure, title, caption):
-    """Draws force and radius of each curve. A curve is faint outside its range."""
+    """Draws a figure of the file of slices: the force that breaks a wedge of ice, and the radius of the cusp. Returns
+    the matplotlib figure. A curve is faint where its point is outside the range of the database or of the formula."""
     import numpy
     from matplotlib.lines import Line2D
 
@@ -46,7 +51,8 @@ def draw(figure, title, caption):
 
 
 def main():
-    """Draws the figures beside the file of slices that app/database/database.cpp wrote."""
+    """Draws each figure of the file of slices that the command line names, as an SVG in the folder of that file. Prints
+    the path of each SVG and returns the exit code 0."""
     from .page import save
 
     slices = sys.argv[1]

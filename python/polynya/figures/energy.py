@@ -1,4 +1,4 @@
-"""Sources and sinks of the energy of each run, from `energy` of summary.json."""
+"""A figure of the sources and sinks of the energy of each run, from `energy` of summary.json (docs/run-folder.md)."""
 from __future__ import annotations
 
 from matplotlib.patches import Patch
@@ -7,6 +7,8 @@ from .loads import prefixed
 from .page import POINT, Page, Sheet, in_words, plain
 from .subjects import all_labelled, colour_of
 
+# Keys of `energy` without their ending _J, and the words of the figure: the sources, then the sinks, in the order in
+# which the figure shows them. Sources and sinks have the same sum.
 SOURCES = {"initial": "motion at the start", "thrust": "thrust and holding", "current": "current",
            "wind": "wind", "walls": "loads of walls", "initial_stored": "in moorings at the start",
            "mooring_ground": "moorings: work of the ground", "mooring_separation": "moorings: overlaps pushed apart",
@@ -30,8 +32,9 @@ SINKS = {
 
 
 def terms_of(runs):
-    """Sources and sinks in order: (name, a value [J] or None for each run). A term without a name here is a sink under
-    its own key."""
+    """Returns the sources and the sinks of some runs in order, each as (name, a value [J] per run, None if the run does
+    not have the term). A term that is neither in SOURCES nor in SINKS is a sink with its key as its name. `turnover_J`
+    is left out, because it is the scale of the imbalance and no term."""
     energies = [run.run.summary.get("energy") or {} for run in runs]
     keys = dict.fromkeys(key[:-2] for energy in energies for key in energy if key.endswith("_J")
                          and key != "turnover_J")
@@ -42,7 +45,8 @@ def terms_of(runs):
 
 
 def draw(runs, page=Page()):
-    """Draws the figure. Returns None if no run has energies."""
+    """Draws two panels of bars, sources above sinks, with a bar for each run, and returns the matplotlib figure, or
+    None if no run has energies. Terms that are 0 in every run are named in a note instead."""
     runs = all_labelled(runs)
     sources, sinks = terms_of(runs)
     if not sources and not sinks:
@@ -72,7 +76,9 @@ def draw(runs, page=Page()):
 
 
 def draw_bars(axes, terms, factor, bar, pitch, page):
-    """Draws the bars with their numbers."""
+    """Draws the bars of a panel in `axes`, and returns the texts of their numbers. Values are in joules, and their
+    scale in units of `factor` joules. `bar` is the height of a bar with its gap, `pitch` the distance of terms; the
+    vertical axis is in millimetres, so that bars of both panels are equally high."""
     numbers = []
     for k, (_, values) in enumerate(terms):
         for i, value in enumerate(values):
@@ -97,7 +103,8 @@ def draw_bars(axes, terms, factor, bar, pitch, page):
 
 
 def make_room(figure, axes, numbers):
-    """Widens the scale until the numbers at the bars fit into it."""
+    """Widens the scale of the horizontal axis until no number at a bar extends beyond the right end of `axes`. Widening
+    also moves the numbers, so it takes up to six passes; after these a number may still extend beyond the end."""
     for _ in range(6):
         right = axes.get_window_extent().x1
         over = max((n.get_window_extent(figure.canvas.get_renderer()).x1 - right for n in numbers), default=0)

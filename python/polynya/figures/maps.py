@@ -15,8 +15,9 @@ from polynya.scenery import BROKEN, CAME_UP, FRACTURES, LEAST_PIXELS, UNDER, WHO
 from .page import Page, Sheet
 from .subjects import all_labelled
 
-CROWD = 400  # number of cusps above which their marks are smaller
-# Largest number of vertices drawn as vectors; with more, floes become dots, and the smallest ones squares.
+CROWD = 400  # number of cusps in a map above which all marks of cusps and of ground ice are smaller
+# Largest number of vertices of a map that are drawn as vectors. With more, the ice is a picture of pixels within the
+# SVG or PDF, and the smallest floes are squares; otherwise files would be large and slow to show.
 MOST_VERTICES = 300_000
 
 
@@ -25,7 +26,7 @@ class Map:
     """A run at one time, and the title of its map."""
 
     title: str
-    caption: str
+    caption: str  #: line below the title with the numbers of fractures and floes
     scenery: Scenery
     frame: object  #: frame of the run
     channel: list  #: polygons of the channel, each a list of rings
@@ -33,8 +34,9 @@ class Map:
 
 
 def chosen_times(runs, wanted, count):
-    """Times of the maps. For one run: `count` times, evenly spaced, including the end and, for more than two, the
-    start. For several runs: their ends. Times are rounded to seconds if that changes little."""
+    """Times of the maps [s]. These are `wanted`, if it has some. Otherwise, for one run: `count` times, evenly spaced,
+    including the end and, for more than two, the start; those between are whole seconds if the run is longer than
+    30 s. For several runs: infinity, which stands for the end of each."""
     if wanted:
         return list(wanted)
     if len(runs) > 1:
@@ -47,7 +49,8 @@ def chosen_times(runs, wanted, count):
 
 
 def channels_at(run, time):
-    """Open water along the track of each ship; none if it cannot be measured."""
+    """Polygons of the channels behind the ships at a time [s], as `polynya channel` measures them. Ships whose channel
+    cannot be measured are left out."""
     polygons = []
     for ship in run.scene.get("ships", []):
         try:
@@ -58,6 +61,8 @@ def channels_at(run, time):
 
 
 def map_of(labelled, scenery, time, has_label):
+    """Returns the Map of a run at a time [s], which is limited to the run. `has_label` adds the run's name to its
+    title."""
     run = labelled.run
     frame = run.frame(min(max(time, run.start_time), run.end_time))
     marks = {kind: scenery.fractures(kind, -math.inf, frame.time)[0] for kind in FRACTURES}
@@ -80,7 +85,9 @@ def add_path(axes, path, **style):
 
 
 def draw_map(axes, shown, window, page, points_per_metre):
-    """Draws water, then ice, ships, and marks on top."""
+    """Draws a Map in `axes`: water, then ice, ships, and marks on top. `window` is the part of the world that is shown,
+    x0, y0, x1, y1 [m]. `points_per_metre` is the scale of the map on paper [pt/m], from which the width of edges and
+    the size of the smallest drawn floe follow."""
     scale, scenery, frame = page.style.scale, shown.scenery, shown.frame
     seen = frame.ids[scenery.seen(frame, window)]
     is_huge = scenery.outlines.count(seen) > MOST_VERTICES
@@ -111,7 +118,7 @@ def draw_map(axes, shown, window, page, points_per_metre):
 
 
 def legend_of(maps, scale):
-    """Legend entries for everything that the maps show."""
+    """Legend entries, only for what at least one of the maps shows. Water is always there."""
     kinds = {int(kind) for shown in maps for kind in shown.scenery.kinds(shown.frame)}
     has = lambda of: any(len(of(shown)) for shown in maps)
     area = lambda colour, words, edge=colours.EDGE: Patch(facecolor=colour, edgecolor=edge,
@@ -143,8 +150,9 @@ def legend_of(maps, scale):
 
 
 def draw(runs, page=Page(), at=(), window=None):
-    """Draws a map of each run at each time of `at` [s] (chosen_times), all with one scale. `window` limits the maps to
-    x0, y0, x1, y1 [m]."""
+    """Draws a map of each run at each time of `at` [s], all of the same part of the world and in one scale, and returns
+    the matplotlib figure. Without `at`, chosen_times() chooses. `window` is the part of the world to show, x0, y0, x1,
+    y1 [m]; without it, all that the maps and the starts of the runs contain is shown."""
     runs = all_labelled(runs)
     times = chosen_times(runs, at, page.style.maps)
     is_alone = len(runs) == 1
@@ -183,9 +191,13 @@ def draw(runs, page=Page(), at=(), window=None):
         return sheet.finish(room, legend_of(maps, scale), is_snug=True)
 
 
+# The numbers in millimetres are the room for labels, gaps, heading and legend. A column has at least 38 mm of the
+# page's width. A map that would be too tall for the page is narrower than its column.
 def layout(page, count, across, along):
-    """Number of columns, and width and height of a map [mm]. It chooses the number of columns with which the maps are
-    largest on the page."""
+    """Returns the number of columns, and width and height of a map [mm], for `count` maps of a region that is `across`
+    wide and `along` high [m]. More columns are chosen if they make the maps more than 2 % wider. Up to one column
+    per 85 mm of the page is also chosen if the maps keep more than 45 % of their width. Long flat maps stay below each
+    other."""
     scale = page.style.scale
     best = (1, 0.0, 0.0)
     for columns in range(1, min(count, max(1, int(page.width / (38 * scale)))) + 1):

@@ -16,17 +16,17 @@ from polynya.files import naming
 from . import options
 
 MM = 1 / 25.4  # [inch]
-POINT = 25.4 / 72  # [mm]
-MARGIN = 1.5  # margin of a figure for a paper [mm]
-LINE = 1.3  # distance between lines, as a multiple of the font size
+POINT = 25.4 / 72  # unit of font sizes [mm]
+MARGIN = 1.5  # margin of a figure at Style.scale 1 [mm]
+LINE = 1.3  # distance between lines of text, as a multiple of the font size; smaller: letters may touch
 
 
 @dataclasses.dataclass(frozen=True)
 class Style:
     """Style for one use of a figure. Sizes of text [pt]: numbers at ticks and notes, words, titles."""
 
-    width: float  #: [mm]
-    tallest: float  #: [mm]
+    width: float  #: width of the figure [mm]
+    tallest: float  #: height to which figures keep if they can, with heading and legend [mm]
     small: float
     text: float
     title: float
@@ -35,10 +35,12 @@ class Style:
 
     @property
     def scale(self):
-        """Size of lines, marks and gaps relative to those for a paper."""
+        """Factor for lines, marks, gaps and heights of panels. It is 1 for the text of 8 pt of a paper, so sizes in the
+        code are those of a paper."""
         return self.text / 8
 
 
+# Styles for one column and for the whole width of a page of a paper, and for slides, which have larger text.
 ONE_COLUMN = Style(85, 235, 7, 8, 9, 300, 4)
 TWO_COLUMNS = Style(170, 235, 7, 8, 9, 300, 4)
 SLIDES = Style(300, 165, 14, 16, 18, 200, 2)
@@ -47,6 +49,8 @@ STYLES = dict(zip(options.STYLES, (ONE_COLUMN, TWO_COLUMNS, SLIDES)))
 
 @dataclasses.dataclass(frozen=True)
 class Page:
+    """Style of a figure, and what replaces parts of it."""
+
     style: Style = TWO_COLUMNS
     given_width: Optional[float] = None  #: replaces the width of the style [mm]
     title: Optional[str] = None  #: replaces the figure's own title; empty: neither title nor caption
@@ -57,19 +61,22 @@ class Page:
         return self.given_width or self.style.width
 
     def columns_for(self, panels, least=46.0):
-        """Number of panels of at least this width [mm] beside each other, so that rows are nearly full."""
+        """Number of columns for `panels` panels. Each is at least `least` [mm] times the scale wide, and there are no
+        more columns than the number of rows needs, so that rows are nearly full. It is at least 1."""
         most = max(1, min(panels, int(self.width / (least * self.style.scale))))
         rows = -(-panels // most)
         return -(-panels // rows)
 
     def row_height(self, rows, wanted):
-        """Height of a row of panels with its text [mm], so that all rows, a heading and a legend fit onto a page if
-        possible."""
+        """Height of a row of panels with its text [mm]: `wanted` times the scale, or less, so that all rows fit below
+        the style's largest height together with 32 mm of heading and legend. It is never below 15 mm times the
+        scale."""
         scale = self.style.scale
         return max(15 * scale, min(wanted * scale, (self.style.tallest - 32 * scale) / rows))
 
     def settings(self):
-        """Settings of matplotlib."""
+        """Settings of matplotlib for this page, by name. Letters are outlines in SVG, so that they look the same
+        everywhere, and the fixed salt makes the same figure give the same bytes."""
         style, scale = self.style, self.style.scale
         return {
             "font.family": "DejaVu Sans",
@@ -104,8 +111,8 @@ class Page:
 
 
 class Sheet:
-    """A figure while it is drawn. Within `with Sheet(…) as sheet`, make panels in `sheet.figure`, then call
-    `finish`."""
+    """A figure while it is drawn, with the settings of its page. Within `with Sheet(page, title, caption) as sheet`,
+    make panels with `sheet.panels`, draw in them, then call `finish`, which returns the figure."""
 
     def __init__(self, page, title="", caption=""):
         self.page = page
@@ -122,15 +129,16 @@ class Sheet:
         return self._settings.__exit__(*error)
 
     def panels(self, rows, columns, **more):
-        """Makes axes in rows. The size of tick labels is set here, because matplotlib reads its settings when it
-        draws."""
+        """Makes axes in rows and columns and returns them as an array of that shape. `more` are arguments of
+        matplotlib's subplots(). The size of tick labels is set here, because matplotlib would read the setting only
+        when it draws, after the sheet has ended."""
         grid = self.figure.subplots(rows, columns, squeeze=False, **more)
         for axes in grid.flat:
             axes.tick_params(which="both", labelsize=self.page.style.small)
         return grid
 
     def width_of(self, words, size, weight="normal"):
-        """Width of a text [mm]."""
+        """Width of a text of a size [pt] on paper [mm]."""
         text = self.figure.text(0, 0, words, fontsize=size, fontweight=weight)
         width = text.get_window_extent().width / self.figure.dpi / MM
         text.remove()
@@ -155,7 +163,8 @@ class Sheet:
         return lines + [line.rstrip()] if line.strip() else lines
 
     def title_panel(self, axes, number, panels, words, width):
-        """Adds the letter of a panel, if there are several, and its titles in lines no wider than `width` [mm]."""
+        """Sets the title of the panel with this number from 0, of `panels`, in lines no wider than `width` [mm]. If
+        there are several panels it begins with a letter, as (a)."""
         letter = f"({letters(number)}) " if panels > 1 else ""
         lines = [line for title in (letter + words).split("\n")
                  for line in self.wrapped(plain(title), self.page.style.text, width)]
@@ -167,9 +176,10 @@ class Sheet:
         axes.set_ylabel("\n".join(self.wrapped(words, self.page.style.text, height - 6 * self.page.style.scale)))
 
     def finish(self, panels_height, handles=(), notes=(), is_snug=False):
-        """Places heading and legend around the panels, and makes the page as tall as needed. `panels_height` is the
-        height of the panels [mm]; with `is_snug` it is reduced by their blank part. `notes` are lines of small text
-        below."""
+        """Places heading and legend around the panels, makes the page as tall as needed, and returns the figure.
+        `panels_height` is the height of the panels with their labels [mm]; with `is_snug` it is reduced by their blank
+        part, which maps of fixed shape leave. `handles` are the entries of the legend, and `notes` paragraphs of small
+        text at the bottom."""
         self._decorate(handles, notes)
         self._place(panels_height)
         if is_snug:
@@ -190,6 +200,7 @@ class Sheet:
         self._key, self._key_height = self._legend(handles, room)
 
     def _place(self, panels_height):
+        """Sets the size of the figure and the positions of texts, legend and panels. It may be called again."""
         page, style, figure = self.page, self.page.style, self.figure
         margin = MARGIN * style.scale
         head = sum(text.get_fontsize() for text in self._above) * POINT * LINE + (margin if self._above else 0)
@@ -214,7 +225,7 @@ class Sheet:
             figure.get_layout_engine().execute(figure)
 
     def _blank(self, panels_height):
-        """Blank part of the panels' height [mm]."""
+        """Height by which the panels can be reduced [mm]: their blank part without a small gap that stays."""
         boxes = [axes.get_tightbbox(self.figure.canvas.get_renderer()) for axes in self.figure.axes]
         filled = max(box.y1 for box in boxes) - min(box.y0 for box in boxes)
         return panels_height - filled / self.figure.dpi / MM - 1.5 * self.page.style.scale
@@ -229,7 +240,8 @@ class Sheet:
         return lines + [(line, style.text) for line in self.wrapped(plain(caption), style.text, width)]
 
     def _legend(self, handles, width):
-        """Makes a legend with as many columns as fit. Returns it and its height [mm]."""
+        """Makes a legend with as many columns as fit into `width` [mm]. Returns it and its height [mm], or None and 0
+        without handles."""
         if not handles:
             return None, 0
         style = self.page.style
@@ -286,8 +298,10 @@ def letters(number):
 
 
 def save(figure, stem, formats, dots=300):
-    """Writes stem.svg and so on. Each file is written completely or not at all, and replaces a link of that name. The
-    same figure gives the same bytes. Yields each path."""
+    """Writes a figure to stem.svg and so on, for each of `formats` (svg, pdf, png), and yields each path after its file
+    was written. `dots` per inch are those of PNGs and of pixels within the other formats. Each file is written
+    completely or not at all, and replaces a link of that name. The same figure gives the same bytes, so dates and the
+    name of the software are left out."""
     for suffix in formats:
         path = f"{stem}.{suffix}"
         draft = f"{path}.{os.getpid()}.tmp"

@@ -13,17 +13,21 @@ from polynya.readable import in_hours
 
 from . import bursts
 
-REFUTED = 0.05  #: a fit with a smaller p value is refuted
+REFUTED = 0.05  #: a fit with a smaller p value of extremes.goodness() is refuted; larger: more fits are refuted
 #: Largest shape of a tail that gives return values [-]. From a shape of 0.5 on, the peaks of the fitted tail have an
 #: infinite variance, so that a few more peaks may change a return value by any amount. Larger: values of short records
 #: of heavy tails are given, which are several times the true ones.
 HEAVIEST = 0.5
-HALF_WIDTH = 0.2  #: half of an interval relative to its value, for which the required length of record is stated [-]
+#: Default half of an interval relative to its value, for which the required length of record is stated [-]. Smaller:
+#: longer records are required.
+HALF_WIDTH = 0.2
 
 
 def exceedance(loads, level=extremes.LEVEL):
-    """Columns: force of each peak in descending order, number of peaks per hour that are at least as large, and the
-    limits of that rate if peaks are independent (exact Poisson limits [Garwood1936])."""
+    """Returns columns of the exceedance of a load: force of each peak in descending order [N], number of peaks that are
+    at least as large, and their rates per hour and per kilometre sailed. The limits of a rate contain it with the
+    probability `level` if peaks are independent (exact Poisson limits [Garwood1936]). A rate is left out if the record
+    has no such length."""
     force = numpy.sort(loads.forces)[::-1]
     count = numpy.arange(1, len(force) + 1)
     low = stats.chi2.ppf((1 - level) / 2, 2 * count) / 2
@@ -78,7 +82,7 @@ class Estimate:
     """The fits that were tried, in ascending order of the threshold. The last one is used unless it is refuted."""
 
     fits: list
-    hours: float
+    hours: float  #: length of the record
     why: str  #: reason why no fit can be used; empty if one can
 
     @property
@@ -88,7 +92,7 @@ class Estimate:
 
 def thresholds(forces, least=None):
     """Thresholds to try until a fit is not refuted [N]: only `least` if it is given, otherwise those that leave all
-    peaks except the smallest, half of them, a quarter and so on."""
+    peaks except the smallest, half of them, a quarter and so on, as long as about extremes.LEAST_PEAKS are left."""
     if least is not None:
         return [float(least)]
     ordered = numpy.sort(forces)
@@ -98,8 +102,10 @@ def thresholds(forces, least=None):
 
 
 def estimate(loads, least=None):
-    """Estimates the tail of runs of one kind. For several kinds of runs no estimate is given; `loads.kinds()` lists the
-    kinds."""
+    """Returns the Estimate of the tail of runs of one kind, from the lowest threshold whose fit is not refuted. `least`
+    is the only threshold to try [N], if it is given. For several kinds of runs no estimate is made; `loads.kinds()`
+    lists the kinds, and `loads.of_kind()` separates them. Higher thresholds are not tried after a fit whose only fault
+    is a heavy tail."""
     record = bursts.record_of(loads)
     if len(loads.kinds()) > 1:
         return Estimate([], record.hours, "the runs differ in more than their seeds, so they are not pooled: each kind "
@@ -140,18 +146,20 @@ class Answer:
 
     period_h: float
     records: float  #: period divided by the length of the record
-    value_N: Optional[float]
-    low_N: Optional[float]
+    value_N: Optional[float]  #: None if it is not given
+    low_N: Optional[float]  #: limits of its interval, which holds extremes.LEVEL
     high_N: Optional[float]
     is_extrapolated: bool  #: true if the period is longer than those for which the intervals were tested
     seen_low_N: float  #: limits between observed peaks, without a fit
-    seen_high_N: float
-    record_needed_h: Optional[float]  #: None without a fit that could tell it
+    seen_high_N: float  #: infinite if too few peaks were observed for it
+    #: Length of record for an interval of the requested half-width; None if no fit gives it.
+    record_needed_h: Optional[float]
     least_record_h: Optional[float]  #: a tenth of the period; None without a fit, whose value it could allow
     reasons: tuple = ()  #: reasons why there is no value
 
     @property
     def why(self):
+        """The reasons in one text; empty if there is a value."""
         return ". ".join(self.reasons)
 
 
@@ -161,8 +169,8 @@ def standard_periods(hours):
 
 
 def returns(loads, hours=None, least=None, extrapolate=False, half_width=HALF_WIDTH):
-    """Returns an Answer for each return period [h]. Default periods are the length of the record and ten times that
-    length."""
+    """Returns an Answer for each of the return periods `hours` [h]; none if the record has no length. Default periods
+    are those of standard_periods(). `least` is the threshold of the fit [N], and otherwise as in answer()."""
     found = estimate(loads, least)
     if found.hours <= 0:
         return []
@@ -185,7 +193,8 @@ def too_near(period):
 
 
 def reasons_of(found, period, is_far):
-    """Reasons why no value is given for a period."""
+    """Yields the reasons why no value is given for a period [h]. `is_far` is true if the period is too long for the
+    record and was not asked for by `extrapolate`."""
     if found.why:
         yield found.why
     if is_far:
@@ -195,6 +204,9 @@ def reasons_of(found, period, is_far):
 
 
 def answer(found, forces, period, extrapolate=False, half_width=HALF_WIDTH):
+    """Returns the Answer for a return period [h] from the Estimate `found` and the `forces` of all peaks [N]. With
+    `extrapolate`, periods longer than extremes.FARTHEST records are answered too. `half_width` is that of the interval
+    for which the needed length of record is stated, as a fraction of the value."""
     records = period / found.hours
     is_far = records > extremes.FARTHEST * (1 + 1e-9)
     tail, reasons = found.used and found.used.tail, tuple(reasons_of(found, period, is_far and not extrapolate))
@@ -229,6 +241,8 @@ def panels(loads):
 
 
 def row_of(loads, panel, row):
+    """Members of the table of panels for one row of a panel, from panels.csv: forces [N], the mean of which is taken
+    over the whole record, time under load [s] and largest pressure [Pa]."""
     table = loads.panels
     chosen = (table["panel"] == panel) & (table["row"] == row)
     force = table["force_N"][chosen]

@@ -2,18 +2,21 @@
 from ..arguments import Parser, choice, choices, number, numbers
 from ..figures.options import FORMATS, STYLES
 
+# Lines of --help, each with the arguments of a command and its effect. Parser puts "polynya" in front.
 EXAMPLES = (
     "loads runs/sawamura2017-fig4b                         writes tables, figures and loads.html to its folder loads",
     "loads studies/load-peaks --out loads --from 20        all cases of a study, from 20 s of each on",
     "loads studies/load-peaks --out loads --returns 3,30   return values for 3 h and 30 h",
     "run scenes/level-plate.json --panel 2.5               also records the loads of panels",
 )
+# Text that --help prints after the options.
 REST = """Needs Python 3 with numpy, scipy and matplotlib (./setup.sh python).
 Exit codes: 0 done, 2 usage, 5 input/output, or numpy, scipy or matplotlib is missing.
 """
 
 
 def command_line():
+    """Returns the parser of the command. It checks the values, and stores numbers and lists instead of texts."""
     parser = Parser("polynya loads", "Peaks of the ice force by place on the hull: statistics, return values, figures",
                     EXAMPLES, REST)
     parser.add("folder", "Folder of a run or of a study", metavar="RUN|STUDY")

@@ -1,5 +1,5 @@
-"""loads.html: a page with the gathered loads, the figures and the short tables. It needs no network and no other
-file."""
+"""loads.html: a page with the gathered loads, the figures and the short tables. It needs no network, but shows the SVG
+files of the figures, which must be in its folder."""
 import html
 
 from ..page_style import STYLE
@@ -7,17 +7,20 @@ from . import words
 
 
 def shown(value):
+    """A cell in HTML: four significant digits of a number with decimals, and nothing for None."""
     return html.escape(f"{value:.4g}" if isinstance(value, float) else "" if value is None else str(value))
 
 
 def cells(row, names):
-    """A row of a table. It is struck through, with the reason, if a fit is refuted or a value is not given."""
+    """The cells of a row. If the row has a text in its member "refuted", its values are struck through, so that nobody
+    takes them for results. The name of the runs and the reason itself stay readable."""
     strike = ("<s>", "</s>") if row.get("refuted") else ("", "")
     return "".join(f"<td>{strike[0] if name not in ('refuted', 'runs') else ''}{shown(row.get(name, ''))}"
                    f"{strike[1] if name not in ('refuted', 'runs') else ''}</td>" for name in names)
 
 
 def table(heading, rows):
+    """A table of rows with its heading. Columns that are empty in all rows are left out."""
     names = list(dict.fromkeys(name for row in rows for name in row))
     names = [name for name in names if any(row.get(name) not in ("", None) for row in rows)]
     head = "".join(f"<th>{html.escape(name.replace('_', ' '))}</th>" for name in names)
@@ -26,7 +29,8 @@ def table(heading, rows):
 
 
 def fit_rows(estimates):
-    """Rows with the fits; numbers of refuted fits are struck through."""
+    """Yields the rows of the table of fits, in words and units for people. "refuted" is empty unless a fit is
+    refuted."""
     for kind, (_, found) in estimates.items():
         for fit in found.fits:
             tail = fit.tail
@@ -37,7 +41,8 @@ def fit_rows(estimates):
 
 
 def answer_rows(answers, half_width):
-    """Rows with the return values."""
+    """Yields the rows of the table of return values, in words. `half_width` is that of the wanted intervals, as a
+    fraction of the value, on which the needed length of record depends."""
     for kind, given in answers:
         yield {"runs": kind, "once in": words.hours(given.period_h), "records": words.plain(given.records),
                "force": words.of_answer(given), "by peaks seen": words.of_seen(given),
@@ -45,7 +50,8 @@ def answer_rows(answers, half_width):
 
 
 def page(loads, estimates, answers, options, tables, pictures):
-    """Returns the page. `tables` are (heading, rows), `pictures` (file, description)."""
+    """Returns the text of the page. `tables` are pairs of heading and rows, and stand at the end; tables without rows
+    are left out. `pictures` are pairs of file name and description, which is also the caption."""
     start = f", from {options.start:g} s of each on" if options.start else ""
     notes = [f"{kind + ': ' if kind else ''}{why}" for kind, (_, found) in estimates.items()
              for why in words.reasons([given for of_kind, given in answers if of_kind == kind], found)]

@@ -1,20 +1,26 @@
-"""Rows of the tables of `polynya loads`, and their files."""
+"""Rows of the tables of `polynya loads` as dicts, one member per column, and the CSV files of these tables. Forces are
+in N and times in the unit at the end of a column's name."""
 import csv
 import math
 
 from ..files import writing
 from . import estimate
 
+# Columns of a fit's parameters. Nothing reads this constant: fit_rows() names these columns itself.
 FIT_COLUMNS = ("shape", "scale_N")
 
 
 def estimates_of(loads, least):
-    """Returns {kind: (loads, Estimate)} for each kind of runs."""
+    """Returns {kind: (Loads, Estimate)} for each kind of runs: the loads of that kind alone, and the estimate from
+    them. Runs of one kind differ only in seeds, durations and texts. `least` is the threshold for the fits [N]; if it
+    is None, several thresholds are tried."""
     kinds = {kind: loads if len(loads.kinds()) == 1 else loads.of_kind(kind) for kind in loads.kinds()}
     return {kind: (of, estimate.estimate(of, least)) for kind, of in kinds.items()}
 
 
 def fit_rows(estimates):
+    """Yields the rows of loads-fits.csv: every fit that was tried, with the estimates and their limits (columns ending
+    in _low and _high), the p values of the tests, and the reasons why a fit is refuted, if it is."""
     for kind, (_, found) in estimates.items():
         for fit in found.fits:
             tail, events = fit.tail, fit.events
@@ -27,7 +33,8 @@ def fit_rows(estimates):
 
 
 def answers_of(estimates, options):
-    """Returns (kind, Answer) for each period."""
+    """Yields (kind, Answer) for each kind of runs and each return period of the options. Default periods are those of
+    estimate.standard_periods(). Kinds without a record have no answers."""
     for kind, (loads, found) in estimates.items():
         if found.hours <= 0:
             continue
@@ -36,6 +43,8 @@ def answers_of(estimates, options):
 
 
 def return_rows(answers):
+    """Yields the rows of loads-returns.csv. A missing value stays an empty cell, and so does an upper limit of the
+    observed peaks that is infinite."""
     for kind, given in answers:
         yield {"runs": kind, "period_h": given.period_h, "records": given.records, "value_N": given.value_N,
                "low_N": given.low_N, "high_N": given.high_N,
@@ -45,20 +54,23 @@ def return_rows(answers):
 
 
 def rows_of(columns):
-    """Converts columns of equal length to rows."""
+    """Converts columns of equal length, {name: values}, to a list of rows."""
     names = list(columns)
     return [dict(zip(names, values)) for values in zip(*(columns[name] for name in names))]
 
 
 def exceedance_rows(estimates):
+    """Rows of loads-exceedance.csv: how often each force is exceeded, per kind of runs."""
     return [{"runs": kind, **row} for kind, (of, _) in estimates.items() for row in rows_of(estimate.exceedance(of))]
 
 
 def names_of(rows):
+    """The names of all columns in the order in which the rows first have them; rows may lack some."""
     return list(dict.fromkeys(name for row in rows for name in row))
 
 
 def write_csv(path, rows):
+    """Writes the rows as CSV with a line of names. Missing cells are empty. An error names the file."""
     with writing(path, newline="") as file:
         writer = csv.DictWriter(file, names_of(rows), restval="", lineterminator="\n")
         writer.writeheader()

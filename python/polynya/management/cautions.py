@@ -1,5 +1,9 @@
-"""What prevents a measurement of ice management from being relied on, in sentences: contacts of the protected body with
-a ship, ice that did not arrive, a broken mooring, a ship beyond the upstream gate, too few fields of ice."""
+"""Warnings, in sentences, about reasons not to rely on a measurement of ice management: contacts of the protected body
+with a ship, ice that did not arrive, a broken mooring, a ship beyond the upstream gate, too few fields of ice.
+
+A study compares patterns, which are ways to manage ice, in conditions, such as speeds of drift. Each pattern meets
+several fields of ice, which differ in their seeds. `found` is management.study.Found, `condition` one of its
+conditions."""
 from __future__ import annotations
 
 import dataclasses
@@ -8,9 +12,10 @@ from typing import Optional
 
 from ..readable import force
 
-LEAST_FIELDS = 5  #: intervals over fewer fields of ice are not to be trusted
-MOST_LISTED = 4  #: largest number of conditions that a sentence lists
-PREFIX = "management_"
+#: Intervals over fewer fields of ice than this get a warning, because so few values barely show the scatter.
+LEAST_FIELDS = 5
+MOST_LISTED = 4  #: largest number of conditions that a sentence lists; it gives only the number of the others
+PREFIX = "management_"  # of the names of measures in the tables of studies
 ARRIVALS = ("floes_at_body", "ice_load_peak_N")  # if these are 0, no ice arrived at the body
 
 
@@ -19,17 +24,18 @@ class Hits:
     """Contacts of the protected body with other ships, of one pattern in one condition."""
 
     hit: int  #: number of fields with a contact
-    fields: int
+    fields: int  #: number of fields in which contacts were measured
     load: float  #: largest load of all contacts, mean over a row of forces.csv [N]
     closest: float  #: smallest distance between the waterlines in all fields [m]
 
 
 def values_of(condition, measure, pattern):
+    """{field: value} of a measure, given without PREFIX; empty if it was not measured."""
     return condition.values.get(PREFIX + measure, {}).get(pattern, {})
 
 
 def hits_of(condition, pattern) -> Optional[Hits]:
-    """Contacts of a pattern; None if they were not measured."""
+    """Contacts of the body with ships under a pattern; None if they were not measured."""
     hits = values_of(condition, "ship_hits", pattern).values()
     if not hits:
         return None
@@ -39,7 +45,8 @@ def hits_of(condition, pattern) -> Optional[Hits]:
 
 
 def has_arrived(condition):
-    """Returns False if it is known that no ice arrived at the body in any field of any pattern."""
+    """Returns False if it is known that no ice arrived at the body in any field of any pattern. Returns True if neither
+    of ARRIVALS was measured."""
     known = [values for name in ARRIVALS for values in condition.values.get(PREFIX + name, {}).values()]
     return not known or any(value > 0 for values in known for value in values.values())
 
@@ -58,6 +65,7 @@ def counted(condition, number, fields):
 
 
 def listed(parts):
+    """Joins texts on conditions, at most MOST_LISTED, with the number of the others."""
     more = f" and {len(parts) - MOST_LISTED} more conditions" if len(parts) > MOST_LISTED else ""
     return ", ".join(parts[:MOST_LISTED]) + more
 
@@ -108,6 +116,7 @@ def no_ice(found):
 
 
 def moorings(found):
+    """A sentence for each pattern with fields in which the mooring of the body broke."""
     lines = []
     for pattern in found.patterns:
         counts = [(condition, values_of(condition, "moorings_broken", pattern)) for condition in found.conditions]
@@ -120,6 +129,7 @@ def moorings(found):
 
 
 def beyond_gate(found):
+    """A sentence on all patterns whose ships sailed beyond the upstream gate; none if there are no such patterns."""
     names = [pattern for pattern in found.patterns for condition in found.conditions
              if any(value > 0 for value in values_of(condition, "ships_beyond_gate_s", pattern).values())]
     if not names:
@@ -129,6 +139,7 @@ def beyond_gate(found):
 
 
 def few_fields(found):
+    """A sentence if a pattern has fewer than LEAST_FIELDS fields of ice by any measure in any condition."""
     counts = [len(values) for condition in found.conditions for of in condition.values.values()
               for values in of.values()]
     if not counts or min(counts) >= LEAST_FIELDS:
@@ -139,13 +150,14 @@ def few_fields(found):
 
 
 def of_study(found):
-    """All sentences, the most serious first."""
+    """All sentences on the results of a study, the most serious first."""
     return [*contacts(found), *no_ice(found), *moorings(found), *not_measured(found), *few_fields(found),
             *beyond_gate(found)]
 
 
 def of_measures(measures, body):
-    """Sentences on a single run, from its measures."""
+    """Yields the sentences on a single run from its measures by name (measures.measures_of). `body` is the name of the
+    protected body."""
     of = lambda name: measures.get(PREFIX + name) or 0
     if of("ship_hits"):
         yield (f"a ship hit {body} {of('ship_hits')} time{'s' if of('ship_hits') > 1 else ''}, with up to "

@@ -1,4 +1,6 @@
-"""Measures of ice management of a run, for the table of a study."""
+"""Measures of ice management of a run, for the table of a study (`collect.management`). The protected body is the ship
+or structure that icebreakers keep free of ice. Gates are lines across the drift upstream of it (gates.py). Only times
+after `gates.start` count, if nothing else is said."""
 import dataclasses
 
 import numpy
@@ -7,13 +9,15 @@ from .cover import covers
 from .encounters import beyond_gate, encounters_of
 from .gates import gates_of, managed_width, managing, passages
 
+# Quantiles of loads over time that are measured [-]. The names of the measures contain them: 0.99 makes ice_load_q99_N.
 LEVELS = (0.5, 0.9, 0.99)
 
 
 def hits_on(run, gates):
-    """Contacts of the body with floes of at least that size, at the recorded frames. A contact that continues from
-    frame to frame counts once. Returns sizes √area [m], number and durations [s]; nothing if contacts were not
-    recorded."""
+    """Contacts of the body with floes of at least the size `gates.size`, at the recorded frames. A contact that
+    continues from frame to frame counts once. Returns the size √area of the floe of each contact [m], the number of
+    contacts, and the time with any contact [s], which is the number of such frames times their interval. Returns None
+    if contacts were not recorded."""
     if run.scene["record"]["contacts"] == "none":
         return None
     contacts, births = run._table("contacts.csv", ""), run.births
@@ -32,20 +36,23 @@ def hits_on(run, gates):
 
 
 def largest_touch(run, gates):
-    """Size √area of the largest floe that touched the body [m]."""
+    """Size √area of the largest floe that touched the body, of any size [m]: 0 if none did, None if contacts were not
+    recorded."""
     found = hits_on(run, dataclasses.replace(gates, size=0.0))
     return None if found is None else float(found[0].max(initial=0))
 
 
 def rows_of(run, ship, start=0.0):
+    """Columns of forces.csv with only the rows of a ship or structure after a time [s]."""
     columns = run.force_columns
     kept = (columns["ship"] == ship) & (columns["t_s"] > start)
     return {name: values[kept] for name, values in columns.items()}
 
 
 def loads_on(run, gates):
-    """Magnitudes of the horizontal loads on the body, one per row of forces.csv [N]: by ice, and by its mooring if it
-    has one."""
+    """Magnitudes of the horizontal loads on the body [N], one per row of forces.csv, of which each is the mean of an
+    interval. Returns {"ice_load": array}, and "mooring_load" too if the body has a mooring. The load of the ice
+    includes the force of the ice under the hull forward, but not that to port."""
     rows = rows_of(run, gates.body, gates.start)
     ice = numpy.hypot(rows["surge_N"] + rows["surge_from_submerged_ice_N"], rows["sway_N"])
     mooring = numpy.hypot(rows["surge_from_mooring_N"], rows["sway_from_mooring_N"])
@@ -57,7 +64,8 @@ def is_moored(scene, body):
 
 
 def broken_moorings(run, body):
-    """Number of moorings of the body that broke; None if it has none. A ship adrift loads no mooring."""
+    """Number of moorings of the body that broke in the whole run; None if it has none. A ship adrift loads no mooring,
+    so the loads of its mooring are then too small."""
     if not is_moored(run.scene, body):
         return None
     events = run.event_columns
@@ -65,7 +73,8 @@ def broken_moorings(run, body):
 
 
 def effort(run, start=0.0):
-    """For each ship that manages ice: the distance sailed [m] and the energy that its engine delivered [J]."""
+    """For each ship that manages ice, after the time `start` [s]: the distance sailed [m] and the energy that its
+    engine delivered [J], both as sums over rows of forces.csv of the value of a row times its interval."""
     found = {}
     for ship in managing(run.scene):
         rows = rows_of(run, ship)
@@ -79,15 +88,16 @@ def effort(run, start=0.0):
 
 
 def ice_lost(ledger):
-    """Area of the ice that left the scene in the whole run [m²], and its fraction of all initial ice [-]. Ice leaves as
-    cusps that are removed, as pieces below the size limit with rims and slivers, and as ice that found no room to
-    surface. If it is not small, the loads and sizes at the body are too low."""
+    """Area of the ice that left the scene in the whole run [m²], and its fraction of all initial ice [-]. `ledger` is
+    that of summary.json. Ice leaves as cusps that are removed, as pieces below the size limit with rims and slivers,
+    and as ice that found no room to surface. If it is not small, the loads and sizes at the body are too low."""
     area = sum(ledger[f"{place}_area_m2"] for place in ("submerged", "brash", "under_ice"))
     return area, area / ledger["initial_ice_area_m2"] if ledger["initial_ice_area_m2"] > 0 else 0.0
 
 
 def ice_measures(run, gates):
-    """Measures of the ice that passed the gates."""
+    """Measures of the ice that passed the gate upstream and the gate at the body: numbers of floes, fractions of cover,
+    sizes √area [m], and the width around the body in which no large floe passed [m]."""
     found, (before, after) = {}, passages(run, gates)
     for name, passage, cover in zip(("upstream", "at_body"), (before, after), covers(run, gates)):
         found[f"floes_{name}"] = len(passage.areas)
@@ -99,7 +109,8 @@ def ice_measures(run, gates):
 
 
 def load_measures(run, gates):
-    """Measures of the loads on the body. Those of a mooring have no value if the body has none."""
+    """Measures of the loads on the body by ice and mooring [N]: mean, largest value and quantiles of the rows of
+    forces.csv, and the number of broken moorings. Those of a mooring are None if the body has none."""
     loads, found = loads_on(run, gates), {}
     for name in ("ice_load", "mooring_load"):
         of = loads.get(name, ())
@@ -112,7 +123,9 @@ def load_measures(run, gates):
 
 
 def ship_measures(run, gates):
-    """Measures of the managing ships, and of encounters of the body with any other ship."""
+    """Measures of the ships that manage ice: number, distance [m], energy [J], and time beyond the upstream gate [s].
+    Measures of encounters of the body with any other ship in the whole run: number of contacts, largest load [N] and
+    smallest distance [m], None if there is no other ship."""
     ships, met = effort(run, gates.start).values(), encounters_of(run, gates.body)
     return {"icebreakers": len(ships),
             "icebreaker_distance_m": sum(ship["distance_m"] for ship in ships),
@@ -124,7 +137,8 @@ def ship_measures(run, gates):
 
 
 def measures_of(run, given):
-    """Measures by name, None if there is no value. `given` is `collect.management` of a study."""
+    """All measures by name, with the prefix management_ of the table's columns; None if there is no value. `given` is
+    `collect.management` of a study, which may state the body and the gates."""
     gates = gates_of(run, given)
     found = ice_measures(run, gates)
     hits = hits_on(run, gates)

@@ -1,4 +1,6 @@
-"""Pictures of a study of ice management: ranked patterns, and measures over a parameter."""
+"""Figures of a study of ice management: patterns ranked by measures, and measures over a parameter. A pattern is a way
+in which icebreakers sail; the patterns are compared in conditions, such as speeds of drift, over several fields of ice.
+`found` is management.study.Found."""
 from matplotlib.lines import Line2D
 
 from ..figures.page import Sheet, plain
@@ -7,8 +9,11 @@ from . import cautions, ranking
 from .figure import COLOURS
 from .study import MEASURES, UNMANAGED
 
+# Styles of the lines of patterns: solid with circles in each colour, then dashed with squares.
 LINES = [{"color": colour, "marker": mark, "linestyle": dash}
          for dash, mark in (("-", "o"), ("--", "s")) for colour in COLOURS]
+# Measures that draw_study() shows, in its order, and their words on the axes. draw_ranking() uses these words too, so
+# every measure of study.MEASURES must be among them.
 SHOWN = {
     "management_ice_load_mean_N": "mean load of the ice",
     "management_ice_load_q99_N": "load of the ice exceeded 1 % of the time",
@@ -20,16 +25,19 @@ SHOWN = {
     "management_managed_width_m": "managed width",
 }
 MOST_NOTES = 4  # largest number of warnings below a figure
-FEWEST_PATTERNS, MOST_PATTERNS = 8, 24  # limits of the number of patterns in a panel of the ranking
+# The number of patterns in a panel of the ranking is what the page has room for, but within these limits. If the page
+# has room for fewer, it becomes taller.
+FEWEST_PATTERNS, MOST_PATTERNS = 8, 24
 OF_PANEL = 14  # height of a panel of the ranking without its patterns [mm]
-MANY = 12  # with more points on the x axis, intervals are drawn as bands
-ROW = 5.2  # height of a pattern in the ranking [mm]
+MANY = 12  # with more points on the x axis, intervals are drawn as bands, because bars would overlap
+ROW = 5.2  # height of a pattern in the ranking, with its words and its interval below them [mm]
 HIT = "#d55e00"  # colour of a pattern whose ship hit the protected body
 WIDEST = 4  # the axis of a ranking ends at this multiple of the largest mean; wider intervals end in an arrow
 
 
 def scaled(measure, most):
-    """Factor and unit for the values of a measure."""
+    """Returns the size and the name of the unit in which a measure is drawn, from the end of its name: for forces, of
+    which the largest is `most` [N], one of N, kN and MN; otherwise the unit of the name."""
     unit = measure.rpartition("_")[2]
     if unit == "N":
         return next(((factor, name) for factor, name in ((1e6, "MN"), (1e3, "kN")) if most >= factor), (1, "N"))
@@ -37,8 +45,8 @@ def scaled(measure, most):
 
 
 def end_of_axis(places, factor):
-    """End of the axis of a ranking: near the largest end of an interval, but no farther than WIDEST times the largest
-    mean, so that means stay apart beside intervals that are far wider."""
+    """End of the axis of a ranking, in units of `factor`: near the largest end of an interval, but no farther than
+    WIDEST times the largest mean, so that means stay apart beside intervals that are far wider."""
     means = [place.mean.value / factor for place in places]
     ends = [mean + (place.mean.half or 0) / factor for mean, place in zip(means, places)]
     return min(1.05 * max(ends), WIDEST * max(means)) or 1
@@ -54,8 +62,9 @@ def fitted(sheet, name, ending, width):
 
 
 def draw_place(axes, place, y, factor, page, hits, words):
-    """Draws mean and interval of a pattern, with `words` above: its name, and its hits of a ship if it has some. An
-    interval ends at 0, below which none of the measures lies, or at the end of the axis, with an arrow."""
+    """Draws mean and interval of a pattern in its row `y` of the ranking, with `words` above: its name, and its hits of
+    a ship if it has some. An interval ends at 0, below which none of the measures lies, or at the end of the axis, with
+    an arrow. A pattern with a hit (`hits` from cautions.hits_of(), or None) has a cross in the colour HIT."""
     is_hit, most = bool(hits and hits.hit), axes.get_xlim()[1]
     colour = HIT if is_hit else "0.45" if place.name == UNMANAGED else COLOURS[0]
     mean, half, scale = place.mean.value / factor, (place.mean.half or 0) / factor, page.style.scale
@@ -68,7 +77,8 @@ def draw_place(axes, place, y, factor, page, hits, words):
 
 
 def bracket_alike(axes, places, scale):
-    """Draws a bar beside each group of patterns that do not differ significantly."""
+    """Draws a bar at the right of each group of neighbouring patterns that do not differ significantly. The axis is
+    made longer for the bars."""
     names = [place.name for place in places]
     groups = ranking.alike(places)
     low, high = axes.get_xlim()
@@ -81,13 +91,15 @@ def bracket_alike(axes, places, scale):
 
 
 def most_places(page, lines):
-    """Largest number of patterns in a panel, so that `lines` rows of panels fit onto a page if possible."""
+    """Largest number of patterns in a panel, so that `lines` rows of panels fit onto a page if possible. 30 mm of the
+    page are for heading and notes."""
     room = (page.style.tallest / page.style.scale - 30) / lines - OF_PANEL
     return max(FEWEST_PATTERNS, min(MOST_PATTERNS, int(room / ROW)))
 
 
 def draw_places(sheet, axes, measure, condition, width, most):
-    """Draws at most `most` patterns of one condition by one measure, best first. Returns the number of the others."""
+    """Draws at most `most` patterns of one condition by one measure, best first, in a panel of `width` [mm]. Returns
+    the number of the other patterns."""
     page = sheet.page
     every = condition.ranked(measure)
     places = every[:most]
@@ -108,7 +120,8 @@ def draw_places(sheet, axes, measure, condition, width, most):
 
 def draw_ranking(found, page):
     """Draws, for each condition and measure, the patterns with their intervals, best first. Bars join patterns that do
-    not differ significantly."""
+    not differ significantly. As many conditions as fit onto a page are drawn, at least one; a note says how many
+    conditions and patterns are missing. Returns the matplotlib figure, or None if nothing is ranked."""
     measures = [name for name in MEASURES if any(condition.ranked(name) for condition in found.conditions)]
     every = [condition for condition in found.conditions if any(condition.ranked(name) for name in measures)]
     if not every:
@@ -140,7 +153,8 @@ def draw_ranking(found, page):
 
 
 def draw_line(axes, points, style, is_dense):
-    """Draws the means of a pattern with their intervals, which are bands if there are many points."""
+    """Draws the means of a pattern with their intervals, which are bands without marks if `is_dense`. `points` are (x,
+    mean, half of the interval)."""
     x, y, half = (list(column) for column in zip(*points))
     if not is_dense:
         axes.errorbar(x, y, yerr=half, **style, markersize=3, linewidth=1, capsize=2)
@@ -151,8 +165,10 @@ def draw_line(axes, points, style, is_dense):
 
 
 def draw_study(found, page):
-    """Draws means with 95 % intervals of some measures over a parameter, with a line for each pattern. Returns None if
-    no parameter has at least two numbers, or if other parameters vary too."""
+    """Draws means with 95 % intervals of some measures over the parameter `found.against`, with a line for each
+    pattern. Lines are shifted a little sideways, so that their intervals stay apart. Returns the matplotlib figure, or
+    None if there is no such parameter with at least two values, if other parameters vary too, or if no measure of SHOWN
+    is there."""
     xs = [condition.x for condition in found.conditions]
     shown = [name for name in SHOWN if name in found.measures]
     if not found.against or len(set(xs)) < 2 or len(set(xs)) < len(xs) or not shown:

@@ -11,20 +11,26 @@ from polynya.files import naming
 from .encoder import SAMPLES, Encoder
 from .picture import Picture
 
-WANTED = 30.0  # approximate duration of a film whose speed is not given [s]
-RATES = {".mp4": 25.0, ".gif": 12.5}  # pictures per second
+WANTED = 30.0  # approximate duration of a film whose speed is not given [s]; longer films are slower and larger
+# Pictures per second of the film. GIFs have half as many, because each picture takes more space in them.
+RATES = {".mp4": 25.0, ".gif": 12.5}
+# Endings of file names: .mp4 and .gif for films, .png for a single picture.
 SUFFIXES = (*RATES, ".png")
 
 
 def chosen_speed(seconds):
-    """Simulated seconds per second of the film, one of 1, 2, 5 · 10ⁿ, for which the film takes about half a minute."""
+    """Simulated seconds per second of the film for a run of `seconds` [s], so that the film takes about WANTED. It is
+    one of 1, 2, 5 · 10ⁿ, that nearest in ratio, so the film takes between 19 and 47 s."""
     wanted = max(seconds, 1e-9) / WANTED
     power = 10.0 ** numpy.floor(numpy.log10(wanted))
     return float(min((step * power for step in (1, 2, 5, 10)), key=lambda speed: abs(numpy.log(speed / wanted))))
 
 
 def chosen_times(run, start=None, end=None, speed=None, rate=RATES[".mp4"]):
-    """Times of the pictures [s], from `start` to `end` of the run."""
+    """Times of the pictures [s], evenly from `start` to `end` of the run, both included. `start` and `end` are
+    simulated times [s]; without them the whole run is shown. `speed` is simulated seconds per second of the film, and
+    `rate` pictures per second of the film. There are at least two pictures. Raises ValueError if a time lies outside of
+    the run or `start` is not before `end`."""
     start = run.start_time if start is None else start
     end = run.end_time if end is None else end
     for name, time in (("from", start), ("to", end)):
@@ -38,9 +44,11 @@ def chosen_times(run, start=None, end=None, speed=None, rate=RATES[".mp4"]):
 
 
 def write(run, path, times, look, progress=None):
-    """Writes a film of a run at some times [s] as MP4 or GIF, or the first picture as PNG. The file is written
-    completely or not at all. `progress` is called with the number of completed pictures and their total. Raises
-    FilmError."""
+    """Writes a film of a run at some times [s] as MP4 or GIF, or only the picture at the first time as PNG; the ending
+    of `path` decides. The file is written completely or not at all. `look` has the settings of the picture; if it
+    states no start or end of the axis of time, these are the first and the last time. `progress` is called after each
+    picture of a film with the number of completed pictures and their total. Raises ValueError for another ending,
+    FilmError if ffmpeg is missing or fails, and OSError if the file cannot be written."""
     suffix = os.path.splitext(path)[1].lower()
     if suffix not in SUFFIXES:
         raise ValueError(f"{path}: a film's name ends in {', '.join(SUFFIXES)}")
@@ -49,11 +57,12 @@ def write(run, path, times, look, progress=None):
     if suffix == ".png":
         write_png(picture.draw(float(times[0])), path)
         return
+    # A GIF has one palette, which is chosen from pictures that are spread evenly over the film.
     samples = times[numpy.linspace(0, len(times) - 1, SAMPLES).astype(int)] if suffix == ".gif" else ()
     with Encoder(path, look.size, RATES[suffix], [picture.draw(float(time)).copy() for time in samples]) as encoder:
         for done, time in enumerate(times, 1):
             encoder.add(picture.draw(float(time)))
-            if done % 200 == 0:
+            if done % 200 == 0:  # limits the memory for shapes of floes that broke; often would cost time
                 picture.scenery.forget(float(time))
             if progress:
                 progress(done, len(times))

@@ -1,22 +1,25 @@
-"""Sensitivity of the speed to each particular of the ship: to those that were stated, estimated or left at their
-default."""
+"""Sensitivity of the ship's speed in level ice, by the published formulas, to each particular of the ship and the ice:
+to those that were stated, estimated or left at their default."""
 import dataclasses
 import statistics
 
 from .. import formulas
 
-STEP = 0.1  # relative change of each particular [-]
-MOST_THICKNESSES = 3  # largest number of thicknesses in the printed table
+# Relative change of each particular [-]. Larger: the table shows curvature. The column names of sensitivity.csv say 10
+# percent and do not follow this value.
+STEP = 0.1
+MOST_THICKNESSES = 3  # largest number of thicknesses in the printed table, whose lines then have 109 characters
 
 
 @dataclasses.dataclass(frozen=True)
 class Particular:
-    """A particular of the ship or its ice: key, value in the key's unit, source, and a function that returns (hull,
-    engine, ice) for a changed value. Some particulars cannot be reduced; the function then returns None."""
+    """A particular of the ship or of the ice."""
 
-    key: str
-    value: float
-    source: str
+    key: str  # path of the scene's key, such as hull.length_m
+    value: float  # in the unit of the key
+    source: str  # "estimated" or "default" if nobody stated the value, otherwise another word, such as "given"
+    # Function of a factor `by` that returns (hull, engine, ice) with the particular multiplied by it, or None if that
+    # change is not possible. The number of propellers is not multiplied: a factor above 1 adds one propeller.
     changed: object
 
     @property
@@ -26,8 +29,11 @@ class Particular:
 
 
 def particulars(ship, hull, engine, ice, sources, is_given):
-    """All particulars that the formulas use. `sources` gives the source of each key of the ship; `is_given` whether the
-    command line had "flexural_strength" and "friction"."""
+    """Returns the list of all Particulars on which the formulas depend. `hull`, `engine` and `ice` are the inputs of
+    formulas.level_ice_speeds(), made from `ship` of the scene. `sources` has the source of each key of the ship,
+    `is_given` for "flexural_strength" and "friction" whether the command line had them. If the bollard pull is stated,
+    power, diameter and number of propellers do not matter and are left out. The number is also left out if it is 3,
+    because there is no factor for 4."""
     found = []
 
     def of_hull(key, name):
@@ -67,14 +73,14 @@ def particulars(ship, hull, engine, ice, sources, is_given):
 
 
 def mean_speed(hull, engine, ice, thickness):
-    """Mean of the speeds by the published formulas [m/s]."""
+    """Mean of the speeds in level ice of a thickness [m] by the published formulas [m/s]."""
     return statistics.fmean(formulas.level_ice_speeds(hull, engine, dataclasses.replace(ice, thickness=thickness)
                                                       ).values())
 
 
 def changes(particular, thicknesses, base):
-    """Change of the mean speed [m/s] in ice of each thickness if the particular is a tenth smaller and a tenth larger,
-    or if there is one propeller more. None if it cannot be smaller."""
+    """For each thickness the pair of changes of the mean speed [m/s] if the particular is smaller and larger by the
+    fraction STEP; for propellers (None, change with one more). `base` is the mean speed for each thickness [m/s]."""
     def change(sign, h, speed):
         changed = particular.changed(1 + sign * STEP)
         return None if changed is None else mean_speed(*changed, h) - speed
@@ -83,20 +89,21 @@ def changes(particular, thicknesses, base):
 
 
 def most_of(pairs):
-    """The largest change."""
+    """The largest magnitude of a change [m/s]."""
     return max(abs(change) for pair in pairs for change in pair if change is not None)
 
 
 def table(found, thicknesses, hull, engine, ice):
-    """A row for each particular: first those that nobody stated, then the others, each group in order of the change of
-    speed."""
+    """Returns (Particular, pairs of changes) for each particular `found`: first those that nobody stated, then the
+    others, each group in descending order of the largest change of speed."""
     base = [mean_speed(hull, engine, ice, h) for h in thicknesses]
     rows = [(one, changes(one, thicknesses, base)) for one in found]
     return sorted(rows, key=lambda row: (not row[0].is_guess, -most_of(row[1])))
 
 
 def shown_thicknesses(thicknesses):
-    """At most three thicknesses of the list: the first, the middle and the last."""
+    """The indices of the thicknesses that the printed table shows: all, or if there are more than MOST_THICKNESSES the
+    first, the middle and the last."""
     if len(thicknesses) <= MOST_THICKNESSES:
         return range(len(thicknesses))
     return (0, len(thicknesses) // 2, len(thicknesses) - 1)
@@ -110,6 +117,7 @@ def as_rows(rows, thicknesses):
 
 
 def print_table(rows, thicknesses):
+    """Prints the rows that table() returned, with a mark at particulars that nobody stated."""
     shown = shown_thicknesses(thicknesses)
     print(f"\nHow far the mean of the three formulas' speeds moves with each particular {STEP:.0%} less and more [m/s]")
     print(f"{'particular':<42}{'value':>10}  {'from':<10}" + "".join(f"{f'{thicknesses[k]:g} m':>15}" for k in shown))

@@ -17,7 +17,9 @@ from .motions import Motions, placed
 from .shapes import Shapes
 from .tables import NONE, event_columns, optional, read_csv, table
 
-VERSION = 6  # version of run folders, kRunFolderVersion of io/run/run_folder.hpp
+# Newest version of run folders that this class reads. It must equal kRunFolderVersion of io/run/run_folder.hpp;
+# with a smaller number, folders of the current program are refused. Older versions from 1 on are read too.
+VERSION = 6
 
 
 class Run:
@@ -55,7 +57,8 @@ class Run:
                 f": polynya resume {self.folder} continues it; Run(folder, unfinished=True) reads what is there")
 
     def _check_version(self):
-        """Refuses a folder of another version, before the program's other messages about it."""
+        """Raises VersionError for a folder of a later version. This comes before other messages about the folder, which
+        such a folder could cause."""
         try:
             summary = read_json(self.folder / "summary.json")
         except FolderError:
@@ -83,12 +86,13 @@ class Run:
 
     @property
     def is_finished(self) -> bool:
-        """True if the run reached its end."""
+        """True if the run reached its end, or if its summary does not say."""
         return bool(self.summary.get("finished", True))
 
     @property
     def ship_names(self) -> list[str]:
-        """Names of ships, then structures, then walls; their order is the same everywhere."""
+        """Names of ships, then structures, then walls, in the order of the scene. Rows of all arrays that have a row
+        per ship have this order."""
         return list(self.waterlines)
 
     @property
@@ -109,7 +113,7 @@ class Run:
 
     @property
     def forces(self) -> Any:
-        """forces.csv: loads and motion, one row for each ship or structure and interval."""
+        """forces.csv: loads and motion, one row for each ship, structure or wall and interval."""
         return table(self.force_columns, self.pandas)
 
     @property
@@ -150,7 +154,8 @@ class Run:
 
     @property
     def crushed(self) -> Any:
-        """crushed.csv: paid area of the overlap of each pair of bodies."""
+        """crushed.csv: for each pair of bodies the areas of their overlap that contacts have crushed or tilted, at
+        every frame."""
         return self._table("crushed.csv", "run folders of version 2 and before")
 
     @property
@@ -174,12 +179,14 @@ class Run:
 
     @property
     def floes(self) -> Any:
-        """floes.ndjson: all floes of the run. `died_s` is the time at which a floe broke, `went_under_s` the time at
-        which it went under a hull (infinite if it did not); `came_up` is true if it, or a floe from which it broke,
-        surfaced from there. `frame(time)` has the shapes."""
+        """floes.ndjson: all floes of the run, one row per floe. `died_s` is the time at which a floe broke, was ground,
+        or surfaced as another floe or stayed under the ice after it had gone under a hull; `went_under_s` is the time
+        at which it went under. Both are infinite if that did not happen. `came_up` is true if the floe, or a floe from
+        which it broke, surfaced from there. `frame(time)` has the shapes."""
         return table(self.births, self.pandas)
 
     def _table(self, name, lacking):
+        """A table of a file; `lacking` says which runs do not have that file."""
         return table(self._columns(name, lacking), self.pandas)
 
     def _columns(self, name, lacking):
@@ -207,12 +214,13 @@ class Run:
 
     @property
     def start_time(self) -> float:
-        """Time of the first frame [s]."""
+        """Time of the first frame [s]; 0 if there is none."""
         return float(self.times[0]) if len(self.times) else 0.0
 
     @property
     def end_time(self) -> float:
-        """Time of the last frame [s]."""
+        """Time of the last frame [s], which may come before the end of the scene in an unfinished run; 0 if there is
+        none."""
         return float(self.times[-1]) if len(self.times) else 0.0
 
     @property
@@ -221,7 +229,8 @@ class Run:
         return Frames(self)
 
     def frame(self, time: float) -> Frame:
-        """The run at a time [s] between its first and its last frame."""
+        """The run at a time [s] between its first and its last frame. Motion between frames is interpolated. Raises
+        ValueError for another time."""
         if not self.start_time <= time <= self.end_time:
             raise ValueError(f"time {time:g}: the run goes from {self.start_time:g} to {self.end_time:g} s")
         return Frame(self, time)
@@ -232,12 +241,12 @@ class Run:
 
     @functools.cached_property
     def shapes(self) -> Shapes:
-        """Shapes of floes in their body frames."""
+        """Shapes of floes in their body frames, to place in the world by Frame.poses."""
         return Shapes(self._lines, self.folder / "floes.ndjson")
 
     @functools.cached_property
     def motions(self) -> Motions:
-        """Records of frames.bin."""
+        """Positions of ships and floes at any time, from frames.bin."""
         return Motions(self.folder / "frames.bin", len(self._lines))
 
     @functools.cached_property
@@ -272,12 +281,14 @@ class Run:
 
     @property
     def first_motions(self) -> numpy.ndarray:
-        """Initial poses of ships, structures and walls at rest: x, y, heading and their rates."""
+        """Initial poses of ships, structures and walls: x, y [m], heading [rad], and zeros in place of their rates.
+        They are used if there is no frame."""
         return numpy.array([first_motion(body) for body in self._bodies], dtype=float).reshape(-1, 6)
 
 
 class Frame:
-    """Ships and floes of a run at a time. Floes are in the order of their ids and include those under hulls."""
+    """Ships and floes of a run at a time. Floes are in the order of their ids, and include those under hulls but not
+    those that broke. Frames are made by Run.frame() and Run.frames."""
 
     def __init__(self, run: Run, time: float):
         self._run = run
@@ -318,7 +329,7 @@ class Frame:
 
     @property
     def hulls(self) -> dict[str, numpy.ndarray]:
-        """Waterlines of ships and structures in the world, arrays of n × 2 [m], by name."""
+        """Waterlines of ships, structures and walls in the world, arrays of n × 2 [m], by name."""
         return {name: placed(self._run.waterlines[name], *motion[:3])
                 for name, motion in zip(self._run.ship_names, self.ship_motions)}
 
@@ -329,7 +340,7 @@ class Frame:
 
     @property
     def ids(self) -> numpy.ndarray:
-        """Ids of the floes."""
+        """Ids of the floes that exist at that time, in ascending order. Other arrays of floes have the same order."""
         return self._ids
 
     @property
@@ -344,7 +355,8 @@ class Frame:
 
     @functools.cached_property
     def ship_motions(self) -> numpy.ndarray:
-        """Motions of ships, n × 6, as the columns of `ships`."""
+        """Motions of ships, structures and walls, n × 6, as the columns of `ships`: x, y [m], heading [rad] and their
+        rates."""
         moved = self._run.motions.ships_at(self.time)
         return moved if len(moved) else self._run.first_motions
 
@@ -372,7 +384,8 @@ class Frame:
 
     @functools.cached_property
     def _motions(self):
-        """Motions by the records; without a record, the centre of mass at its place by the pose."""
+        """Motions of the floes, n × 6, by the records: centre of mass, angle and their rates. Without a record the
+        centre and angle follow from the pose, and the rates are NaN."""
         found, (x, y, angle) = self._recorded.copy(), self._poses.T
         centre = self._run.centroids[self._ids]
         c, s = numpy.cos(angle), numpy.sin(angle)
@@ -384,7 +397,7 @@ class Frame:
 
 
 class Frames:
-    """The recorded frames of a run, in order."""
+    """The recorded frames of a run, in order of time, as a sequence of Frame."""
 
     def __init__(self, run):
         self._run = run
@@ -399,7 +412,8 @@ class Frames:
 
 
 def body_poses(motions, centroids):
-    """Body frames, as x, y, angle, of floes whose centres of mass have these motions."""
+    """The poses x, y [m], angle [rad] of the body frames of floes, n × 3. `motions` begin with x, y and angle of their
+    centres of mass in the world, and `centroids` are these centres in the body frames [m]."""
     x, y, angle = motions[:, 0], motions[:, 1], motions[:, 2]
     c, s = numpy.cos(angle), numpy.sin(angle)
     return numpy.column_stack(
@@ -407,7 +421,8 @@ def body_poses(motions, centroids):
 
 
 def polygon_of(rings, shapely):
-    """Makes a shapely Polygon, or a GeoJSON one, from rings."""
+    """Makes a shapely Polygon from an outer ring and its holes, or a GeoJSON Polygon if shapely is not installed or
+    `shapely` is False."""
     geometry = optional("shapely.geometry", shapely)
     if geometry:
         return geometry.Polygon(rings[0], rings[1:])

@@ -1,23 +1,27 @@
-"""Shapes of a run's floes in their body frames. The file has whole rings, or references to the rings of parents
-(docs/run-folder.md, "floes.ndjson")."""
+"""Shapes of a run's floes in their body frames [m]. The file has whole rings, or references to the rings of parents
+(docs/run-folder.md, "floes.ndjson"). A shape may thus need those of all its ancestors."""
 from __future__ import annotations
 
 import numpy
 
 from polynya.errors import FolderError
 
-MOST_KEPT = 8 << 20  # largest number of vertices of assembled shapes that are kept, 128 MB
+# Largest number of vertices of assembled shapes that are kept: 128 MiB at 16 bytes each. Fewer save memory, but shapes
+# that are wanted again are assembled again.
+MOST_KEPT = 8 << 20
 
 
 class Shapes:
-    """Assembles shapes when they are needed, and keeps the newest ones."""
+    """Assembles shapes when they are wanted, and keeps up to MOST_KEPT vertices of those assembled last."""
 
     def __init__(self, births, path):
+        """`births` are the objects of floes.ndjson, in which each floe's id is its index. `path` is used in errors."""
         self._births, self._path = births, path
         self._kept, self._vertices = {}, 0
 
     def of(self, floes):
-        """{id: [outer ring, holes …]} of some floes; each ring is an array of n × 2 [m]."""
+        """{id: [outer ring, holes …]} of some floes; each ring is an array of n × 2 [m]. Raises FolderError, with the
+        line, if a shape or its parent is damaged."""
         wanted = {int(floe) for floe in floes}
         needed, waiting = set(), list(wanted)
         while waiting:
@@ -39,11 +43,14 @@ class Shapes:
         return shapes
 
     def _parent_of(self, floe):
+        """The id of the floe whose rings the floe refers to. It has to be smaller than the floe's own id."""
         parent = self._births[floe]["parent_id"]
         if parent is None or not 0 <= parent < floe:
             raise FolderError(f"{self._path}:{floe + 1}: parts of a parent that is not on a line before")
         return parent
 
+    # Returns the rings of a floe. `found` has the shapes assembled so far, `children` the number of floes that still
+    # need each parent. A parent that nobody needs any more is removed from `found`, which saves memory.
     def _assembled(self, floe, found, children, wanted):
         birth = self._births[floe]
         try:
@@ -62,6 +69,7 @@ class Shapes:
         return rings
 
     def _keep(self, shapes):
+        """Keeps the shapes, and drops the oldest ones until at most MOST_KEPT vertices or one shape are left."""
         for floe, rings in shapes.items():
             if floe not in self._kept:
                 self._kept[floe] = rings
@@ -71,6 +79,7 @@ class Shapes:
 
 
 def ring_of(points):
+    """Converts a list of points [x, y] to an array. Raises ValueError if it is not a ring."""
     ring = numpy.array(points, dtype=float)
     if ring.ndim != 2 or ring.shape[1] != 2 or len(ring) < 3 or not numpy.isfinite(ring).all():
         raise ValueError("a ring has three points or more, of two finite coordinates each")
@@ -78,7 +87,9 @@ def ring_of(points):
 
 
 def vertices(part, parent):
-    """Vertices of a part of a ring: new ones, or a stretch of one of the parent's rings."""
+    """Vertices of a part of a ring. A part is a list of new vertices [x, y], or three numbers: the index of a ring of
+    the parent (0 is the outer ring), the index of the first vertex in it, and the number of vertices. The stretch
+    continues from the last vertex of that ring with the first one."""
     if isinstance(part[0], list):
         return numpy.array(part, dtype=float)
     ring, first, count = part

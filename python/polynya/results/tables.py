@@ -8,15 +8,18 @@ import numpy
 from polynya import files
 from polynya.errors import FolderError, how_to_get
 
-NONE = -1  #: id that means no floe
-LARGEST_WHOLE = 2.0**53
+NONE = -1  #: value of an absent whole number, such as the id of a floe if a body is no floe
+LARGEST_WHOLE = 2.0**53  #: largest whole number of a table; up to it doubles have every whole number exactly
+#: Columns of texts, in all tables of a run. A column of texts that is missing here is refused, because its cells are no
+#: numbers.
 WORDS = {"ship", "by_ship", "state_hash", "ended_by"}
+#: Columns of whole numbers. A column that is missing here becomes one of doubles, with NaN instead of -1.
 WHOLE = {"floe_id", "by_floe_id", "steps", "station", "contacts", "contacts_with_ships", "rams", "panel", "row"}
 
 
 def optional(name, wanted):
-    """Imports a module if it is installed and `wanted` is None. It must be installed if `wanted` is True, and is not
-    used if it is False."""
+    """Returns the module with this name, or None if it is not to be used. If `wanted` is None, it is used if it is
+    installed; if True, it must be installed, otherwise ImportError says how to install it; if False, it is not used."""
     if wanted is False:
         return None
     try:
@@ -29,8 +32,8 @@ def optional(name, wanted):
 
 
 def table(columns, pandas=None):
-    """Returns columns of equal length as a pandas.DataFrame, or as a structured array if pandas is not installed or is
-    False."""
+    """Returns columns of equal length, {name: array}, as a pandas.DataFrame, or as a structured array of numpy if
+    pandas is not installed or `pandas` is False. If `pandas` is True, it must be installed."""
     frames = optional("pandas", pandas)
     if frames:
         return frames.DataFrame(columns)
@@ -42,8 +45,10 @@ def table(columns, pandas=None):
 
 
 def column(name, cells, path):
-    """Values of a column, whose type follows from its name (docs/run-folder.md): texts, whole numbers (-1 for none),
-    truth values, or else numbers."""
+    """Converts the cells of a column, which are texts, to an array. Its type follows from its name
+    (docs/run-folder.md): texts for WORDS, integers for WHOLE (NONE for an absent one), truth values for names that
+    begin with is_ or has_, and otherwise numbers (NaN for an absent one). Raises FolderError with the line of a wrong
+    cell."""
     if name in WORDS:
         return numpy.array(cells, dtype=object)
     values = numpy.array(files.numbers(cells, path, name), dtype=float)
@@ -61,6 +66,8 @@ def read_csv(path):
     return files.Columns({name: column(name, cells, path) for name, cells in files.read_cells(path).items()}, path)
 
 
+#: First columns of events and their types. They are there even if no event has them, and so are x_m, y_m, normal_x and
+#: normal_y after them. Other members become columns after these, in the order in which events first have them.
 FIRST = {"t_s": float, "kind": str, "ship": str, "by_ship": str, "floe": int, "parent": int,
          "by_floe": int, "children": tuple}
 
@@ -84,7 +91,8 @@ def flattened(event):
 
 
 def event_columns(events):
-    """Columns of events.ndjson. -1 means no floe, NaN no number, an empty text no text."""
+    """Columns of the events of events.ndjson, {name: array}, with a row for each event. An event that lacks a member
+    has NONE for a floe, NaN for a number, False for a truth value, and an empty text or tuple."""
     rows = [flattened(event) for event in events]
     kinds = dict(FIRST)
     kinds.update({name: float for name in ("x_m", "y_m", "normal_x", "normal_y")})

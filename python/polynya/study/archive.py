@@ -1,4 +1,5 @@
-"""Packs chunks of cases into one file each, because a cluster's file system is slow with millions of small files."""
+"""Packs chunks of cases into one file each, because a cluster's file system is slow with millions of small files. A
+study with `"archive": true` does so. An archive is a tar file with the results of its cases and their folders."""
 import io
 import json
 import os
@@ -9,12 +10,15 @@ from ..files import naming, open_regular
 from .case import is_result, state_of
 from .located_json import StudyError
 
-ROWS = "results.ndjson"  # first member of an archive: the results of its cases, one per line
+# First member of an archive: the results of its cases, one JSON object per line. It is first so that results_of() can
+# read it without the rest of the archive.
+ROWS = "results.ndjson"
 
 
 def pack(study, chunk):
-    """Packs a chunk whose cases have all ended, and removes its folders. Returns False if a case has not ended. If two
-    processes pack the same chunk, the second one finds the archive of the first and keeps it."""
+    """Packs a chunk whose cases have all finished or failed, and removes its folders. Returns True if the chunk is
+    packed afterwards, and False if one of its cases has not ended. If two processes pack the same chunk, the archive of
+    the first is kept. Raises OSError if the archive cannot be written; the folders then stay."""
     if study.archive(chunk).exists():
         remove_folders(study, chunk)  # a killed process may have left folders
         return True
@@ -38,6 +42,8 @@ def pack(study, chunk):
 
 
 def write_archive(study, chunk, draft, results):
+    """Writes the archive of a chunk to the file `draft`, so that it is on the disk when the function returns. `results`
+    are the bytes of ROWS."""
     with naming(draft), open(draft, "wb") as file:
         with tarfile.open(fileobj=file, mode="w") as tar:
             info = tarfile.TarInfo(ROWS)
@@ -51,7 +57,8 @@ def write_archive(study, chunk, draft, results):
 
 
 def unpack(study, chunk):
-    """Restores the folders of an archive, so that one of its cases can run again."""
+    """Restores the folders of an archive, so that its cases can run again, and removes the archive. They are extracted
+    to a draft folder first. A kill on the way therefore leaves the archive or all folders."""
     home = study.chunk_folder(chunk) if study.chunk_size > 1 else study.folder / "cases"
     remove_folders(study, chunk)
     draft = study.archive(chunk).with_suffix(f".{os.getpid()}.tmp")
@@ -66,12 +73,14 @@ def unpack(study, chunk):
 
 
 def chunks_of(study, numbers):
-    """Chunks of some cases in order."""
+    """The numbers of the chunks that have some of these cases, in ascending order."""
     return sorted({number // study.chunk_size for number in numbers})
 
 
 def unpack_to_run(study, numbers, keep, retries_failed):
-    """Unpacks the chunks with a case that must run again, to keep its run or because it failed."""
+    """Unpacks those chunks of the cases `numbers` that must run again: all if `keep` is "all" and the study kept only
+    summaries, because their run folders are gone; otherwise those with a failed case, if `keep` is "all" or
+    `retries_failed` is true."""
     for chunk in chunks_of(study, numbers) if keep == "all" or retries_failed else []:
         if not study.archive(chunk).exists():
             continue
@@ -82,7 +91,7 @@ def unpack_to_run(study, numbers, keep, retries_failed):
 
 
 def remove_folders(study, chunk):
-    """Removes the folders of a packed chunk."""
+    """Removes the folders of a chunk's cases, which its archive contains. Folders that are not there are no error."""
     if study.chunk_size > 1:
         shutil.rmtree(study.chunk_folder(chunk), ignore_errors=True)
     else:
@@ -91,7 +100,8 @@ def remove_folders(study, chunk):
 
 
 def results_of(study, chunk):
-    """Results of the cases of a packed chunk, in order."""
+    """The results of the cases of a packed chunk, in order of their numbers. Raises StudyError (code 5) if the archive
+    is damaged or has another number of results."""
     try:
         with open_regular(study.archive(chunk)) as file, tarfile.open(fileobj=file, mode="r:") as tar:
             first = tar.next()  # extractfile(ROWS) would read the whole archive
@@ -105,7 +115,8 @@ def results_of(study, chunk):
 
 
 def all_states(study):
-    """(number, state, result) of every case, in order."""
+    """Yields (number, state, result) of every case, in order of the numbers. States and results are those of
+    case.state_of()."""
     for chunk in range(study.chunks):
         if study.archive(chunk).exists():
             for number, result in zip(study.cases_of(chunk), results_of(study, chunk)):

@@ -5,6 +5,7 @@ from . import draws
 
 
 def count_cases(definition):
+    """The number of cases that expand() lists, without listing them."""
     count = definition.repetitions * definition.draws * len(definition.scenes) * paired_count(definition)
     for values in definition.grid.values():
         count *= len(values)
@@ -12,12 +13,16 @@ def count_cases(definition):
 
 
 def paired_count(definition):
+    """The number of rows of the paired values, which all have the same length; 1 if there are none. The rows of a
+    design are paired values too."""
     return len(next(iter(definition.paired.values()), [None]))
 
 
 def expand(definition):
-    """Every case in the order of its number: its scene, and the values by path. Repetitions are the outermost loop and
-    draws the next one, so that a study with more of them begins with the cases of a smaller study."""
+    """Yields every case in the order of its number, as the index of its scene and its values by path, without those
+    that the study sets for all cases. The last path of the grid varies fastest, then the other paths of the grid,
+    pairs, scenes, draws, and slowest the repetitions. A study with more repetitions therefore begins with the same
+    cases, so that finished cases can be kept; so does a study of one repetition with more independent draws."""
     drawn = {
         path: draws.draw(definition.draw_seed, path, kind, numbers, definition.draws, definition.method)
         for path, (kind, numbers) in definition.draw.items()
@@ -44,6 +49,7 @@ def repeats_by_seed(definition):
 
 
 def varied_paths(definition):
-    """Paths that differ between cases, in the order of the study."""
+    """The paths that have values of their own in each case, in the order of the study; these become columns of its
+    table. "seed" is one of them if repetitions set it, even if there is only one repetition."""
     paths = [*definition.grid, *definition.paired, *definition.draw]
     return [*paths, "seed"] if repeats_by_seed(definition) else paths

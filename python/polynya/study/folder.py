@@ -1,4 +1,5 @@
-"""Folder of a planned study: plan.json, the cases by number, and the places of the cases.
+"""Folder of a planned study: its files, and the places of its cases. Cases have numbers from 0, and chunks of
+consecutive cases too. A chunk is what one Slurm task runs and what an archive contains.
 
     plan.json            the plan
     cases.ndjson         one line per case: {"scene": 0, "set": {path: value}}
@@ -19,8 +20,8 @@ from ..errors import FolderError
 from .located_json import StudyError, shown
 
 PLAN, CASES, INDEX = "plan.json", "cases.ndjson", "cases.index"
-FORMAT = 1
-KEYS = {  # members of plan.json
+FORMAT = 1  # version of plan.json; plans of another version are refused
+KEYS = {  # members that plan.json must have, and their types
     "format": int, "name": str, "cases": int, "chunk": int, "archive": bool, "keep": str, "set": dict, "scenes": list,
     "varied": list, "collect": dict, "report": dict,
 }
@@ -33,27 +34,32 @@ class Study:
     """A planned study."""
 
     folder: pathlib.Path
-    plan: dict
+    plan: dict  # contents of plan.json
 
     @property
     def count(self):
+        """Number of cases."""
         return self.plan["cases"]
 
     @property
     def chunk_size(self):
+        """Number of cases of a chunk; the last chunk may have fewer."""
         return self.plan["chunk"]
 
     @property
     def chunks(self):
+        """Number of chunks."""
         return -(-self.count // self.chunk_size)
 
     def cases_of(self, chunk):
+        """The numbers of a chunk's cases."""
         return range(chunk * self.chunk_size, min((chunk + 1) * self.chunk_size, self.count))
 
     def chunk_folder(self, chunk):
         return self.folder / "cases" / f"{chunk:06d}"
 
     def archive(self, chunk):
+        """The file of a packed chunk, which exists only if the chunk is packed (archive.py)."""
         return self.folder / "cases" / f"{chunk:06d}.tar"
 
     def case_folder(self, number):
@@ -62,7 +68,9 @@ class Study:
         return self.chunk_folder(number // self.chunk_size) / f"{number:06d}"
 
     def case(self, number):
-        """The scene's file and all values of one case. It reads only 8 bytes and one line."""
+        """The scene's file and all values of one case by path, including those that the study sets for all. It reads
+        only 8 bytes and one line, because a study may have millions of cases. Raises StudyError if the case is damaged
+        or there is none with this number."""
         with files.open_regular(self.folder / INDEX) as index, files.open_regular(self.folder / CASES) as cases:
             index.seek(8 * number)
             offset = index.read(8)
@@ -70,7 +78,7 @@ class Study:
             return self._whole(cases.readline(), number)
 
     def all_cases(self):
-        """Scene and values of every case, in order."""
+        """Yields the scene's file and all values of every case, in order."""
         with files.open_regular(self.folder / CASES) as cases:
             for number, line in enumerate(cases):
                 yield self._whole(line, number)
@@ -95,7 +103,8 @@ def open_study(given):
 
 
 def read_plan(folder):
-    """Reads the plan of a planned study's folder."""
+    """Reads the plan of a planned study's folder. Raises StudyError (code 5) if it is damaged, has been changed by hand
+    or has another FORMAT."""
     try:
         plan = files.read_json(folder / PLAN)
     except FolderError as error:
@@ -112,8 +121,8 @@ def read_plan(folder):
 
 
 def write_plan(folder, plan):
-    """Writes the plan with its checksum. The contents were checked when the study was planned and are not checked
-    again."""
+    """Writes the plan with its checksum, which it also adds to `plan`. The checksum reveals changes by hand, because
+    what was checked when the study was planned is not checked again."""
     plan["crc32"] = checksum_of(plan)
     write_atomically(folder / PLAN, json.dumps(plan, indent=1) + "\n")
 
@@ -125,6 +134,8 @@ def checksum_of(plan):
 
 
 def planned_folder(given):
+    """The folder of a study: `given` itself, or if that is a study's file studies/<name>, where it is planned by
+    default. The folder need not exist."""
     path = pathlib.Path(given)
     if not path.is_file():
         return path
@@ -163,7 +174,8 @@ def list_of_numbers(numbers):
 
 
 def numbers_of_list(words, count, what):
-    """The numbers of a list such as "3,7-9,12"; each must be below `count`."""
+    """The numbers of a list such as "3,7-9,12", sorted and each once. Each must be below `count`. `what` names them in
+    messages. Raises StudyError (code 2) for another text."""
     numbers = []
     for part in words.split(","):
         low, dash, high = part.partition("-")

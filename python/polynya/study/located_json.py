@@ -1,5 +1,5 @@
-"""JSON whose values have places in the file, as the program itself reads it (`polynya read-json`), and problems with
-it."""
+"""JSON with comments whose values have places in the file, and problems with places. The program reads the text
+(`polynya read-json`), so that studies and scenes follow the same rules."""
 import dataclasses
 import json
 import re
@@ -8,15 +8,15 @@ import subprocess
 from ..errors import InputError
 from ..program import program
 
-LONGEST_SHOWN = 60  # longest value in a message [characters]
+LONGEST_SHOWN = 60  # longest value in a message [characters]; a longer one is cut and ends with "…"
 
 
 @dataclasses.dataclass(frozen=True)
 class Problem:
-    """A problem of a file."""
+    """A problem of a file. Its text is "file:line:column: path: message"."""
 
     file: str
-    path: str
+    path: str  # keys and indices of the value, as path_in_words() writes them; empty for the whole file
     message: str
     line: int = 0  # from 1; 0 if there is no place
     column: int = 0
@@ -27,15 +27,18 @@ class Problem:
 
 
 class StudyError(InputError):
-    """A study that cannot be used, with its problems."""
+    """Raised if a study cannot be used. It has the problems, and the exit code of the command: 3 if the study is
+    invalid, 5 if files are missing or damaged, 2 if options are wrong."""
 
 
 class LocatedJson:
-    """A JSON file with comments. `value` is its contents; `problem(path, …)` makes a problem with the place of a
-    value."""
+    """A JSON file with comments. `value` is its contents. problem() makes a problem with the place of a value.
+    `_places` has for each value, by its JSON pointer, the line and column of the value, and for a member of an object
+    also those of its key."""
 
     def __init__(self, file):
-        """Raises StudyError with all faults of the text, or with the reason why the file cannot be read (code 5)."""
+        """Raises StudyError with all faults of the text (code 3), or with the reason why the file cannot be read (code
+        5)."""
         self.file = str(file)
         done = subprocess.run([program(), "read-json", "--", self.file], capture_output=True, check=False)
         if done.returncode != 0:
@@ -46,8 +49,9 @@ class LocatedJson:
         self.value, self._places = read["value"], read["places"]
 
     def problem(self, path, message, of_key=False):
-        """A problem of the value at a path of keys and indices, or of its key, or of the nearest value on the path that
-        exists."""
+        """Returns a Problem of the value at a path, a list of keys and indices. Its place is that of the value, or with
+        `of_key` that of the key of the value. If the file has no such value, the place is that of the innermost value
+        on the path that exists."""
         known = len(path)
         while pointer(path[:known]) not in self._places:
             known -= 1
@@ -57,7 +61,8 @@ class LocatedJson:
 
 
 def number(text):
-    """A whole number if it is one, such as 1e3; all numbers of the file are doubles."""
+    """A number of the file: an int if its value is a whole number up to 2⁵³, also if it is written as 1e3; otherwise a
+    float. The program itself reads all numbers as doubles, which are exact up to 2⁵³."""
     value = float(text)
     return int(value) if value.is_integer() and abs(value) <= 2**53 else value
 
@@ -73,7 +78,7 @@ def pointer(path):
 
 
 def path_in_words(path):
-    """draw.of["ice.thickness_m"].normal.sd"""
+    """A path in the notation of messages, such as draw.of["ice.thickness_m"].normal.sd."""
     words = ""
     for step in path:
         if isinstance(step, int):
@@ -86,10 +91,11 @@ def path_in_words(path):
 
 
 def shortened(words):
+    """Cuts a text of more than LONGEST_SHOWN characters, and ends it with "…"."""
     return words if len(words) <= LONGEST_SHOWN else words[: LONGEST_SHOWN - 1] + "…"
 
 
 def shown(value):
-    """A value as messages show it."""
+    """A value as messages show it: a JSON text, or "an object" or "a list"."""
     words = {dict: "an object", list: "a list"}.get(type(value))
     return words or shortened(json.dumps(value, ensure_ascii=False))

@@ -3,7 +3,8 @@ import os
 
 from ..arguments import WHOLE, Parser, choice, number
 
-PROCESSORS = os.cpu_count() or 1
+PROCESSORS = os.cpu_count() or 1  # default number of cases that run at a time
+# Lines of --help, each with the arguments of a command and its effect. Parser puts "polynya" in front.
 EXAMPLES = (
     "study plan scenes/studies/pack-ice-loads.json   expand, check and estimate",
     "study run studies/pack-ice-loads --jobs 2       all cases on this machine; resumes what stopped",
@@ -11,6 +12,7 @@ EXAMPLES = (
     "study gather studies/pack-ice-loads             one table of all cases",
     "study report studies/pack-ice-loads             statistics, pictures and a page",
 )
+# Text that --help prints after the options.
 REST = """polynya study plan --help, and so on, explains each one's options. Studies need Python 3; report also needs
 numpy, scipy and matplotlib (./setup.sh python).
 
@@ -20,10 +22,13 @@ unfinished or were stopped.
 
 
 def add(parser, name, meaning, **more):
+    """Adds an option, or a positional argument, with its meaning for --help, whose first letter is made a capital."""
     parser.add_argument(name, help=meaning[0].upper() + meaning[1:], **more)
 
 
 def add_action(actions, name, meaning, *examples):
+    """Adds an action, such as plan, with its argument STUDY and examples without "polynya study" and its own name.
+    Returns its parser."""
     parser = actions.add_parser(name, meaning=meaning, examples=[f"study {name} {example}" for example in examples])
     add(parser, "study", "JSON file of the study, or the folder that plan made from it", metavar="STUDY")
     return parser
@@ -137,6 +142,7 @@ def add_others(actions):
 
 
 def command_line():
+    """Returns the parser of the command with all its actions; `action` of the parsed options names the chosen one."""
     parser = Parser("polynya study", "Plan, run and gather many runs of one scene", EXAMPLES, REST)
     actions = parser.add_actions()
     for add_to in (add_plan, add_run, add_evaluate, add_slurm, add_others):

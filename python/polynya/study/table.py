@@ -3,22 +3,24 @@ import dataclasses
 import sys
 import time
 
-MOST_NAMED = 12  # number of running cases that the table lists
-LIVE_PAUSE, LINE_PAUSE = 0.2, 10.0  # times between updates of the table, and between lines [s]
-CLEAR_LINE = "\033[K"
+MOST_NAMED = 12  # largest number of running cases whose numbers the table lists; further ones become "…"
+# Least time between two updates of the table, and between two lines if there is no terminal [s]. Larger: the numbers
+# are older. Smaller: a log of a study has more lines.
+LIVE_PAUSE, LINE_PAUSE = 0.2, 10.0
+CLEAR_LINE = "\033[K"  # deletes the rest of a line of a terminal, if the new text is shorter than the old
 
 
 @dataclasses.dataclass
 class Counts:
-    """Progress of a study."""
+    """Numbers of cases of a study. A case has ended if it is done or failed."""
 
     total: int
     done: int = 0
     failed: int = 0
-    stopped: int = 0
-    running: list = dataclasses.field(default_factory=list)  # numbers of cases
-    before: int = 0  # number of cases that had ended before this command
-    began: float = dataclasses.field(default_factory=time.monotonic)
+    stopped: int = 0  # cases that ended before their time and continue from a checkpoint when the command runs again
+    running: list = dataclasses.field(default_factory=list)  # numbers of the cases that run
+    before: int = 0  # number of cases that had ended before this command; they do not count for the rate
+    began: float = dataclasses.field(default_factory=time.monotonic)  # time at which this command began [s]
 
     def left(self):
         """Remaining time at the average rate so far, in hours, minutes and seconds; a dash before the first case has
@@ -29,6 +31,7 @@ class Counts:
         return clock((self.total - self.done - self.failed) * (time.monotonic() - self.began) / ended)
 
     def line(self):
+        """The counts in one line."""
         stopped = f"{self.stopped} stopped, " if self.stopped else ""
         return (
             f"{self.done} of {self.total} done, {len(self.running)} running, {self.failed} failed, {stopped}"
@@ -36,6 +39,7 @@ class Counts:
         )
 
     def table(self):
+        """The counts as lines of the live table."""
         named = ", ".join(str(number) for number in self.running[:MOST_NAMED])
         more = ", …" if len(self.running) > MOST_NAMED else ""
         percent = 100 * self.done // max(self.total, 1)
@@ -48,19 +52,24 @@ class Counts:
 
 
 def clock(seconds):
+    """A duration [s] as h:mm:ss, or m:ss below an hour."""
     minutes, seconds = divmod(round(seconds), 60)
     hours, minutes = divmod(minutes, 60)
     return f"{hours}:{minutes:02d}:{seconds:02d}" if hours else f"{minutes}:{seconds:02d}"
 
 
 class Display:
-    """Shows counts on stderr, and messages between them."""
+    """Shows counts on stderr, and messages between them. On a terminal the table is drawn again in its place.
+    Otherwise, as in a log, a line is printed. If it is quiet, only messages are printed."""
 
     def __init__(self, is_quiet):
+        """`shown` is the time of the last output [s], `lines` the number of lines of the table to draw over."""
         self.is_live = sys.stderr.isatty() and not is_quiet
         self.is_quiet, self.shown, self.lines = is_quiet, 0.0, 0
 
     def show(self, counts, at_once=False):
+        """Shows the counts, unless the last output is newer than the pause allows. `at_once` shows them in any case,
+        for the last output of a command."""
         pause = LIVE_PAUSE if self.is_live else LINE_PAUSE
         if self.is_quiet or (not at_once and time.monotonic() - self.shown < pause):
             return
@@ -74,10 +83,10 @@ class Display:
         self.lines = len(rows)
 
     def back(self):
-        """Moves the cursor to the first line of the table."""
+        """The control sequence that moves the cursor to the first line of the table; empty if there is no table."""
         return f"\r\033[{self.lines}A" if self.lines else ""
 
     def message(self, words):
-        """Prints a line above the table, which is drawn again below it."""
+        """Prints a line in the place of the table. The next show() draws the table below it at once."""
         print(f"{self.back()}{words}{CLEAR_LINE if self.is_live else ''}", file=sys.stderr, flush=True)
         self.shown, self.lines = 0.0 if self.is_live else self.shown, 0
