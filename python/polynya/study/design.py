@@ -56,7 +56,8 @@ class Design:
 
     def value(self, number, path, text):
         """Returns the value of a cell: that of a JSON text (a number, true, false, a list, an object), otherwise the
-        text itself. A whole number such as 1e3 or 2.0 becomes an int, because some keys of a scene accept only those."""
+        text itself. A whole number such as 1e3 or 2.0 becomes an int, because some keys of a scene accept only
+        those."""
         if not text:
             self.report(number, path, "found an empty value, allowed: a value in each row")
             return None
