@@ -7,8 +7,8 @@ import os
 
 from ..arguments import Parser, number, numbers
 
-# Flexural strength [Pa] and friction on the hull [-] of the ice if they are not given. The speeds of
-# docs/validation.md, "A ship in level ice", are for these values.
+# Flexural strength [Pa] and friction on the hull [-] of the ice if they are not given. The speeds at
+# full power in docs/validation.md are for these values, except Araon's strength.
 FLEXURAL_STRENGTH, FRICTION = 500e3, 0.1
 # Time step of the runs in level ice at full power if --step is not given [s]. The help of --step states it.
 STEP = 0.01
