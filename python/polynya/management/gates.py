@@ -31,7 +31,7 @@ class Gates:
     upstream: float  # distance of the gate beyond the patterns, which ice passes before it is managed [m]
     near: float  # distance of the gate just before the body [m]
     width: float  # width of both gates across the drift, half of it on each side of the body [m]
-    size: float  # √area of the smallest floe that counts as a hit, and as not managed in managed_width [m]
+    size: float  # √area of the smallest floe that counts as a hit and as not managed [m]; 20 m if not given
     start: float = 0.0  # only times after this one count [s]
 
 
