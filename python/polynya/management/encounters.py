@@ -41,7 +41,8 @@ def loads_of_hulls(run, name):
 
 
 def poses(run, name):
-    """Times [s] and poses x, y [m], heading [rad] of a body: of the first frame, then of each row of forces.csv."""
+    """Times [s] and poses x, y [m], heading [rad] of a body: at the start of the run, then of each row of
+    forces.csv. Headings do not jump by 360°, so that they can be interpolated."""
     columns = run.force_columns
     own = columns["ship"] == name
     rows = numpy.column_stack([columns[key][own] for key in ("x_m", "y_m", "heading_deg")])

@@ -184,8 +184,8 @@ def passage_of(run, rows):
 
 
 def managed_width(passage: Passage, gates) -> float:
-    """Width of the stretch around the middle of the gate in which no floe of at least gates.size passed [m], as a
-    number of parts (BINS); 0 if one passed through the middle of the gate. A floe occupies √area across the gate."""
+    """Width of the stretch around the middle of the gate in which no floe of at least gates.size passed [m], in
+    steps of width / BINS; 0 if one passed through the middle of the gate. A floe occupies √area across the gate."""
     edges = numpy.linspace(-0.5 * gates.width, 0.5 * gates.width, BINS + 1)
     is_free = numpy.ones(BINS, dtype=bool)
     for y, size in zip(passage.across, passage.sizes):

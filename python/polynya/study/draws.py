@@ -26,8 +26,8 @@ LEAST_P = 1e-16
 
 def fault_of(kind, given):
     """Returns a message that says what is wrong with the numbers of a distribution, or None. Bounds must leave at least
-    1e-9 of the distribution, because numbers resolve a smaller
-    part too coarsely."""
+    1e-9 of the distribution, because
+    numbers resolve a smaller part too coarsely."""
     for name in KINDS[kind]:
         if not is_number(given.get(name)):
             found = shown(given[name]) if name in given else "nothing"

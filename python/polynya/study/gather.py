@@ -22,8 +22,8 @@ MOST_NETCDF = 1_000_000
 
 def gather(study):
     """Writes table.csv, table.nc if xarray and netCDF4 are installed, and gather.json. Returns an exit code: DONE if
-    every case is finished, otherwise FAILED if any has failed, otherwise STOPPED. Cases are read one after the other;
-    only the numbers of those that are not finished are kept in memory."""
+    every case is finished, otherwise FAILED if any has failed, otherwise STOPPED. Cases are read one after the other:
+    table.csv needs little memory, but table.nc as much as the whole table."""
     measures = first_measures(study)
     rest = write_table(study, measures)
     if rest.unknown:  # some cases were run by another version

@@ -45,7 +45,7 @@ def exit_code(counts):
 def run_cases(study, numbers, jobs, *, keep=None, retries_failed=False, is_quiet=False):
     """Runs those of the cases that have not finished, `jobs` at a time, and returns an exit code. Failed cases run
     again only with `retries_failed`. `keep` replaces the study's setting; None leaves it. A signal stops the runs with
-    checkpoints."""
+    checkpoints. Returns INPUT_OUTPUT if a worker process was killed."""
     counts, table, waiting = Counts(len(numbers)), Display(is_quiet), []
     for number, state in states_of(study, numbers, keep):
         counts.done += state == "finished"

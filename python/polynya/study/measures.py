@@ -12,7 +12,7 @@ from .. import files
 LOADS = ("surge_N", "sway_N", "yaw_Nm")  # columns that are measured always, before those of collect.loads
 QUANTILES = (0.5, 0.9, 0.99)  # quantiles of loads if collect.quantiles gives none
 # Speed below which a ship counts as stopped if collect.stop_speed_m_per_s is not given [m/s]. A larger value gives more
-# stops, more stopped time and more often the outcome "stuck".
+# stopped time, and more often the outcome "stuck".
 STOP_SPEED = 0.05
 TEXT_COLUMNS = {"ship"}  # columns of forces.csv that are not numbers
 
@@ -122,7 +122,8 @@ def quantile(ordered, level):
 
 def of_motion(columns, kept, collect):
     """Measures of speed, distance, stops and energy over the rows `kept`, and the final pose. A stop begins when the
-    speed falls below the stop speed, after it was above twice that: slow swaying about the limit is one stop."""
+    speed falls below the stop speed, after it was above twice that, so that a speed that varies about the limit is one
+    stop."""
     times, speeds = columns["t_s"], columns["speed_m_per_s"]
     steps = [times[0]] + [b - a for a, b in zip(times, times[1:])]
     span = math.fsum(steps[i] for i in kept)

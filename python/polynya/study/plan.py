@@ -31,7 +31,7 @@ MOST_SHOWN = 20  # number of different problems of cases that are printed; the o
 
 def plan_study(file, options):
     """Plans the study in `file`, or finds that it is planned already. `options` are those of `polynya study plan`.
-    Returns the Study. Raises StudyError; the folder is then as it was before."""
+    Returns the Study. If it raises StudyError, no plan was written, and a folder that was not there is not there."""
     if pathlib.Path(file).is_dir():
         raise StudyError(f"{file}: a folder; plan takes the study's JSON file", 2)
     definition = read_definition(file, options.design)
@@ -61,7 +61,7 @@ def plan_study(file, options):
 
 def write_study(definition, folder, draft, lines, old, expanded, options):
     """Checks the cases, writes the folder and makes the trial; does nothing if the same plan is there. Scenes are
-    copied to the folder `draft` first, so that a refused plan changes nothing."""
+    copied to the folder `draft` first, so that a refused plan replaces nothing (but see refuse_other_cases)."""
     count, text = len(lines), "".join(lines)
     scenes = copy_scenes(definition, draft, lines)
     new = {
@@ -120,7 +120,8 @@ def what_differs(plan, members):
 def refuse_other_cases(old, new, folder, text):
     """Raises StudyError if cases have ended by the old plan and the new one would change cases. Allowed are further
     cases after the old ones (more repetitions or draws), and other values of keep and report. If no case has ended,
-    any change is allowed, and cases that were begun by the old plan are removed."""
+    any change is allowed, and cases that were begun by the old plan are removed, even if the check of the new cases
+    then fails."""
     if old is None:
         return
     what = what_differs(old, {key: new[key] for key in ("set", "scenes", "inputs", "collect", "chunk", "archive")})
