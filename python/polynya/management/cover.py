@@ -1,5 +1,5 @@
 """The cover of ice at gates across the drift: the fraction of a gate's length that lies under ice. It shows how much
-ice comes, whatever its floes' sizes, so that loads of different patterns are compared in the same amount of ice."""
+ice arrives, independently of the sizes of its floes."""
 from __future__ import annotations
 
 import numpy
