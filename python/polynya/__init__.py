@@ -1,4 +1,4 @@
-"""Polynya in Python: exact fracture of ice by icebreakers (docs/python.md).
+"""Polynya in Python: a simulator of icebreakers in ice that cuts floes exactly (docs/python.md).
 
     import polynya
     simulation = polynya.Simulation("scenes/two-floes.json")
@@ -6,13 +6,18 @@
     print(simulation.time, simulation.floes.poses)
 
 `Scene` and `Simulation` step the simulator in this process, `cut` cuts polygons exactly; these need the compiled
-module. `Run` and `Study` read the folders of runs and studies back; these need numpy. `polynya.study` plans, runs and
-gathers many runs of one scene (docs/studies.md), `polynya.statistics` has the estimators of its reports; these need
-plain Python and the program `polynya`.
+module. `Run` and `Study` read the folders of runs and studies back; these need numpy and the program `polynya`.
+`polynya.study` plans, runs and gathers many runs of one scene (docs/studies.md); it needs plain Python and the program,
+and its reports more. `polynya.statistics` has the estimators of the reports, and needs numpy and scipy.
+
+Each public name is imported when it is first used (`__getattr__`), so that `import polynya` takes little time and a
+missing package matters only to the names that need it.
 """
 import os as _os
 
-TYPE_CHECKING = False  # avoids the import of typing, because each case of a study starts by importing this file
+# Type checkers take this name for true, as that of typing, and so see the imports below. typing itself is not imported,
+# because each case of a study starts by importing this file.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
     from polynya._core import FloeMemory, Floes, PilotView, Scene, SeenShip, Ship, Simulation
     from polynya.cutting import Cut, cut
@@ -27,18 +32,21 @@ __all__ = ["Cut", "FloeMemory", "Floes", "PilotView", "Problem", "Run", "Scene",
            "SceneError", "SeenShip", "Ship", "Simulation", "SimulationError", "Study", "cut"]
 __all__ += ["FolderError", "NotARunError", "NotAStudyError", "UnfinishedError", "VersionError", "require"]
 
-# The compiled module is beside the folder of this package. That folder may be a link into the source tree, so its path
-# is not resolved.
+# The compiled module `_core` is in the folder python_core of a build or an installation, beside the folder `python`
+# that contains this package. There the package may be a link into the source tree, so the path is not resolved. From
+# the source tree itself the compiled module is not found.
 __path__.append(_os.path.join(_os.path.dirname(_os.path.dirname(_os.path.dirname(_os.path.abspath(__file__)))),
                               "python_core"))
 
+# Names that __getattr__ takes from the compiled module, and from polynya.errors.
 _COMPILED = {"FloeMemory", "Floes", "PilotView", "Scene", "SeenShip", "Ship", "Simulation"}
 _ERRORS = {"FolderError", "NotARunError", "NotAStudyError", "Problem", "SceneError",
            "SimulationError", "UnfinishedError", "VersionError"}
 
 
 def _module(name):
-    """Imports a module of the package. If a package that it needs is missing, raises ImportError with advice."""
+    """Imports the module with that full name. If a package that it needs is missing, raises ImportError that says how
+    to install it."""
     import importlib
     try:
         return importlib.import_module(name)
@@ -50,6 +58,8 @@ def _module(name):
 
 
 def _compiled():
+    """Returns the compiled module, after adding the methods of its classes that are written in Python. If it cannot be
+    imported, raises ImportError that says why, for example that it is built for another version of Python."""
     import glob
     import sys
     try:
@@ -78,8 +88,8 @@ def _compiled():
 
 
 def _version():
-    """Version of Polynya: the one that CMake wrote beside the package, or in a source tree that is not built, the one
-    in CMakeLists.txt."""
+    """Version of Polynya, such as "1.2.3": the one that CMake wrote beside the compiled module, or in a source tree
+    that is not built, the one in CMakeLists.txt."""
     try:
         from polynya import _written_version
         return _written_version.VERSION

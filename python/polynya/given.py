@@ -1,4 +1,4 @@
-"""The forms in which a scene may be given."""
+"""The forms in which a scene may be given to polynya.Scene: a dict, JSON text, or the path of a file."""
 import collections.abc
 import errno
 import json
@@ -7,7 +7,8 @@ import os
 
 
 def _plain(value):
-    """Converts numpy's arrays and numbers, and paths, to types that JSON has."""
+    """Converts numpy's arrays and numbers, and paths, to types that JSON has. json.dumps calls it for each value that
+    it cannot write. Raises TypeError for any other type."""
     if hasattr(value, "tolist"):
         return value.tolist()
     if isinstance(value, os.PathLike):
@@ -16,7 +17,8 @@ def _plain(value):
 
 
 def _first_not_finite(value, path=""):
-    """The path of the first number within a value that JSON cannot write, and the number; None if there is none."""
+    """Returns the path and the value of the first number that is infinite or no number, such as ("ships[0].speed",
+    nan), or None if all numbers are finite. `path` is the path of `value` itself."""
     if isinstance(value, float):
         return None if math.isfinite(value) else (path, value)
     if isinstance(value, collections.abc.Mapping):
@@ -29,8 +31,9 @@ def _first_not_finite(value, path=""):
 
 
 def scene_parts(given):
-    """Returns a scene's file and its JSON text, one of which is empty, and whether the text is the caller's own, so
-    that messages can name its lines."""
+    """Returns (path, text, has_lines) of a scene. One of path and JSON text is empty. `has_lines` is False for a dict,
+    whose text is written here, so that messages must not name its lines. A str with a brace is JSON text, any other
+    one a path. Raises TypeError, FileNotFoundError, and ValueError for a dict that JSON cannot represent."""
     if isinstance(given, collections.abc.Mapping):
         try:
             return "", json.dumps(dict(given), default=_plain, allow_nan=False), False

@@ -1,4 +1,7 @@
-"""Views of scenes, simulations, runs and studies in a notebook: a map of ice and hulls, with a few lines of text."""
+"""What a notebook shows for a scene, a simulation, a run or a study: a map of ice and hulls with a few lines of text,
+or the first rows of a study's table. Simulation.plot, which polynya/__init__.py adds to the class, is also here.
+
+The functions html_of_… are the classes' `_repr_html_`."""
 from __future__ import annotations
 
 import base64
@@ -7,12 +10,16 @@ import io
 
 import numpy
 
-MOST_FLOES = 100_000  # largest number of floes on a map
-MOST_ROWS = 20  # largest number of rows of a study's table
+# Largest number of floes for which a scene or a simulation is shown with a map; runs have one up to three times as many
+# floes, with those that broke. Above it a notebook shows only the text, because drawing would take too long.
+MOST_FLOES = 100_000
+MOST_ROWS = 20  # number of rows of a study's table that are shown
 
 
 def floes_by_kind(simulation):
-    """Floes as one path for each kind, like Scenery.floes() for a run."""
+    """Floes of a simulation at the present time as one path for each kind, in the order of Scenery.floes(). The path of
+    floes that came up from under a hull is empty: they are with the broken ones, because Simulation.floes does not tell
+    them apart."""
     from . import scenery
     floes = simulation.floes
     rings = numpy.split(floes.world_vertices, floes.ring_offsets[1:-1]) if len(floes) else []
@@ -23,7 +30,7 @@ def floes_by_kind(simulation):
 
 
 def hulls_of(simulation):
-    """Ships and structures as one path, walls as another."""
+    """Outlines of a simulation's ships and structures as one path, and of its walls as another, in the world [m]."""
     from .results.hulls import waterline
     from .scenery import path_of, turned
     scene = simulation.scene.resolved
@@ -36,7 +43,8 @@ def hulls_of(simulation):
 
 
 def draw(axes, floes, hulls, tracks=()):
-    """Draws paths from above, in equal scale along both axes."""
+    """Draws paths in the world [m] from above, in equal scale along both axes, which it fits to them. `floes` has a
+    path for each kind of floe, `hulls` those of ships and of walls, `tracks` arrays of n × 2. Returns the axes."""
     from matplotlib.patches import PathPatch
 
     from . import scenery
@@ -69,7 +77,7 @@ def plot(self, axes=None):
 
 
 def image(fill):
-    """A PNG of axes that `fill` draws, as an HTML element; none if matplotlib is missing."""
+    """An HTML element with a PNG of axes, which the function `fill(axes)` draws; empty if matplotlib is missing."""
     try:
         from matplotlib.figure import Figure
     except ImportError:
@@ -82,6 +90,8 @@ def image(fill):
 
 
 def page(title, rows, picture=""):
+    """HTML with a title, a picture, and a table of the rows (name, value), without those whose value is None or "". All
+    texts are escaped, except `picture`, which is HTML."""
     left = "style='text-align:left'"
     cells = "".join(f"<tr><th {left}>{html.escape(name)}</th><td {left}>{html.escape(str(value))}</td></tr>"
                     for name, value in rows if value not in (None, ""))
@@ -94,11 +104,14 @@ def html_of_simulation(self):
 
 
 def contents_of(simulation):
+    """Rows (name, value) with the numbers of floes and the names of the bodies."""
     names = ", ".join(ship.name for ship in simulation.ships)
     return [("floes", len(simulation.floes)), ("ships, structures, walls", names)]
 
 
 def html_of_scene(self):
+    """The scene at its start, with its warnings and hints; for a wrong scene only its problems. It makes a simulation
+    for the map."""
     from . import Simulation
     problems = [("", problem) for problem in self.validate()]
     if any(problem.severity == "error" for _, problem in problems):
@@ -111,6 +124,7 @@ def html_of_scene(self):
 
 
 def html_of_run(self):
+    """The run at its end, with tracks, numbers of fractures, peaks of the surge force and warnings."""
     def fill(axes):
         from .scenery import Scenery
         scenery, frame = Scenery(self), self.frame(self.end_time)
@@ -130,6 +144,7 @@ def html_of_run(self):
 
 
 def html_of_study(self):
+    """The first MOST_ROWS cases of a study: the number of the case, the parameters and the first six measures."""
     table = self.table
     names = list(table.columns if hasattr(table, "columns") else table.dtype.names)
     columns = [names[0], *self.parameters, *[name for name in self.measures if name in names][:6]]
@@ -143,4 +158,5 @@ def html_of_study(self):
 
 
 def value_of(value):
+    """A cell of the table as text, floats with five digits."""
     return f"{value:.5g}" if isinstance(value, float) else str(value)

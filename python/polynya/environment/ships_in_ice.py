@@ -10,14 +10,16 @@ from .spaces import VectorEnv, batch_space
 
 
 class ShipsInIce(VectorEnv):
-    """num_envs environments ShipInIce, which are stepped in threads. Steps and images release Python's lock.
+    """`num_envs` environments ShipInIce, which are stepped together in threads. The threads run in parallel, because
+    steps and images release Python's lock.
 
-    workers: number of threads; if not given, one per simulation, but at most one per processor. settings: those of
-    ShipInIce.
+    workers: number of threads; if not given, one per simulation, but at most one per processor. It does not change
+    results. settings: those of ShipInIce, the same for all.
 
-    Observations are stacked along a first axis; rewards and ends are arrays. An environment that has ended is reset by
-    its next step, which ignores the action and returns the first observation, reward 0 and no end (Gymnasium's
-    autoreset mode "next step"). The info of a step is a dict of arrays; "events" is an array of lists."""
+    Observations are stacked along a first axis; rewards and ends are arrays with one entry per environment. An
+    environment that has ended is reset by its next step, which ignores the action and returns the first observation,
+    reward 0 and no end (Gymnasium's autoreset mode "next step"). The info of a step is a dict of arrays; "events" is an
+    array of lists. Raises ValueError if `num_envs` is no whole number from 1 on."""
 
     def __init__(self, num_envs=1, *, workers=None, **settings):
         if not isinstance(num_envs, int) or num_envs < 1:
@@ -34,7 +36,9 @@ class ShipsInIce(VectorEnv):
         self._pool = concurrent.futures.ThreadPoolExecutor(workers or min(num_envs, _processors()))
 
     def reset(self, *, seed=None, options=None):
-        """Starts new simulations with the seeds seed, seed + 1, …, with a list of seeds, or with random ones."""
+        """Starts a new simulation in each environment. A number `seed` gives the seeds seed, seed + 1, …; a list gives
+        one seed per environment (ValueError for another length); None gives random ones. `options` are ignored, as by
+        ShipInIce. Returns stacked observations and infos."""
         seeds = [None if seed is None else seed + i for i in range(self.num_envs)] if not _is_list(seed) else seed
         if len(seeds) != self.num_envs:
             raise ValueError(f"{len(seeds)} seeds are given for {self.num_envs} environments")
@@ -43,7 +47,9 @@ class ShipsInIce(VectorEnv):
         return _stacked([observation for observation, _ in results]), _gathered([info for _, info in results])
 
     def step(self, actions):
-        """Steps all. Returns observations, rewards, which goals are reached, which times are over, and infos."""
+        """Steps all environments with actions, an array of num_envs × 2 (ValueError for another shape): lever and
+        steering of each. Returns observations, rewards, masks of the environments whose goal is reached and whose time
+        is over, and infos."""
         actions = numpy.asarray(actions, dtype=float)
         if actions.shape != (self.num_envs, 2):
             raise ValueError(f"actions have the shape {actions.shape}, allowed: ({self.num_envs}, 2)")
@@ -54,13 +60,14 @@ class ShipsInIce(VectorEnv):
         return _stacked(observations), numpy.array(rewards), reached, over, _gathered(infos)
 
     def _step_one(self, i, action):
+        """Steps environment i, or resets it with a random seed if its last step was its end."""
         if not self._has_ended[i]:
             return self.envs[i].step(action)
         observation, info = self.envs[i].reset()
         return observation, 0.0, False, False, info
 
     def render(self):
-        """Returns the pictures of all environments, or None."""
+        """Returns a tuple with the picture of each environment, or None without `render_mode`."""
         return None if self.render_mode is None else tuple(env.render() for env in self.envs)
 
     def close(self, **_):
@@ -74,13 +81,14 @@ def _is_list(seed):
 
 
 def _processors():
+    """Number of processors that this process may use."""
     import os
 
     return len(os.sched_getaffinity(0))
 
 
 def _next_step():
-    """Gymnasium's name of the mode, or a text if it has none."""
+    """Gymnasium's value for the autoreset mode "next step", or a text if Gymnasium is missing or too old to have it."""
     try:
         from gymnasium.vector import AutoresetMode
     except ImportError:
@@ -89,11 +97,14 @@ def _next_step():
 
 
 def _stacked(observations):
+    """One dict of arrays with a first axis for the environments, from a dict per environment with the same names."""
     return {name: numpy.stack([one[name] for one in observations]) for name in observations[0]}
 
 
 def _gathered(infos):
-    """Returns an array for each key, and in the key "_name" which environments have it, as in Gymnasium's infos."""
+    """Returns one dict from the infos of all environments, as Gymnasium does: for each key an array of the values, with
+    0 (for "events" an empty list) where an environment has no value, and under "_" + key the mask of those that have
+    one."""
     gathered = {}
     for name in dict.fromkeys(name for info in infos for name in info):
         has = numpy.array([name in info for info in infos])

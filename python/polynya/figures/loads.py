@@ -1,4 +1,5 @@
-"""Surge, sway and yaw on every ship and structure over time, with the fractures of each."""
+"""The figure "loads": surge, sway and yaw on every ship and structure over time, with marks for the cusps and splits of
+each."""
 from __future__ import annotations
 
 import dataclasses
@@ -10,24 +11,28 @@ from matplotlib.patches import Patch, StepPatch
 from .page import Page, Sheet
 from .subjects import all_labelled, mark_fractures, once, subjects_of
 
-COMPONENTS = (("surge", "N"), ("sway", "N"), ("yaw", "Nm"))
-FRONT, BEHIND = "#000000", "#56b4e9"  # colours that differ in greyscale
-STRETCH = 0.1  # width on paper of the stretches of which the largest and smallest value are drawn [mm]
+COMPONENTS = (("surge", "N"), ("sway", "N"), ("yaw", "Nm"))  # with the unit in the column's name
+# Colours of the first and the second of the loads that are drawn together; they also differ in greyscale.
+FRONT, BEHIND = "#000000", "#56b4e9"
+# Width on paper of a stretch of time, of which only the largest and the smallest value are drawn [mm]. It is about the
+# width of the drawn line (0.25 pt): smaller stretches only make larger files, larger ones look like steps.
+STRETCH = 0.1
 
 
 @dataclasses.dataclass(frozen=True)
 class Load:
     """A measure of the load (docs/theory/forces.md), with the columns of forces.csv for surge, sway and yaw."""
 
-    middle: str
-    words: str
+    middle: str  # part of the column's name between component and unit, such as "_max"
+    words: str  # text in the legend
 
     def column(self, component, unit):
         return f"{component}{self.middle}_{unit}"
 
 
 def chosen(run, choice):
-    """The loads that `--load` names, the front one first; none if the run has none of that kind."""
+    """The loads that the value `choice` of `--load` names, the one that is drawn in front first. Empty if the run has
+    no load of that kind."""
     scene = run.scene
     step = scene["time"]["step_s"]
     interval = max(1, round(scene["record"]["forces_interval_s"] / step)) * step
@@ -42,7 +47,7 @@ def chosen(run, choice):
 
 
 def why_not(run, choice):
-    """Says why a run has no such load."""
+    """Message that says why a run has no load of the kind `choice` ("ships" or "j-over-tau-c")."""
     what = "does not split floes by j/tau_c (fracture.splitting.model michel)"
     if choice == "ships":
         what = "has one ship and no structure"
@@ -50,13 +55,14 @@ def why_not(run, choice):
 
 
 def prefixed(most):
-    """A factor 10³ⁿ and its prefix, so that values up to `most` are easy to read."""
+    """Returns (factor, prefix) of the unit for values up to `most`: (1e6, "M") from 1e6 on, and so on."""
     return next(((factor, name) for factor, name in ((1e9, "G"), (1e6, "M"), (1e3, "k")) if most >= factor), (1, ""))
 
 
 def envelope(times, values, start, end, stretches):
-    """Divides time into equal stretches. Returns their limits, and the smallest and largest value in each, so that no
-    peak is lost."""
+    """Divides the time from `start` to `end` [s] into equal stretches. Returns their limits, and in each the smallest
+    and the largest of its values and 0, so that no peak is lost and the area between them reaches the axis. A value
+    belongs to the stretch that ends at or after its time; values that are not finite are left out."""
     edges = numpy.linspace(start, end, stretches + 1)
     low, high = numpy.zeros(stretches), numpy.zeros(stretches)
     is_number = numpy.isfinite(values)
@@ -67,7 +73,8 @@ def envelope(times, values, start, end, stretches):
 
 
 def scale_of(subjects, loads, component, unit):
-    """Limits of the scale for all values, with room for the marks above."""
+    """Limits of the scale that holds 0 and all values of a component [N or N m], with room for the marks of fractures
+    above. They are ±1 if all values are 0."""
     values = [subject.columns(load.column(component, unit))[0] for subject in subjects for load in loads]
     values = numpy.concatenate([[0.0], *values])
     values = values[numpy.isfinite(values)]
@@ -78,7 +85,8 @@ def scale_of(subjects, loads, component, unit):
 
 
 def draw(runs, page=Page(), choice="true"):
-    """Draws a column of panels for each ship and structure, with one scale each for surge, sway and yaw."""
+    """Draws a column of panels for each ship and structure, with one scale each for surge, sway and yaw. `choice` is
+    the value of --load, and the scene of the first run decides which loads it has. None if there is nothing to draw."""
     runs = all_labelled(runs)
     subjects = subjects_of(runs)
     loads = chosen(runs[0].run, choice) if subjects else []
@@ -115,6 +123,8 @@ def draw(runs, page=Page(), choice="true"):
 
 
 def draw_panel(axes, subject, loads, component, factor, page):
+    """Draws the loads of one component, (name, unit), divided by `factor`, and the marks of fractures. Returns the
+    legend entries of the marks."""
     times, *values = subject.columns("t_s", *(load.column(*component) for load in loads))
     stretches = max(100, int(0.8 * page.width / STRETCH / page.style.scale))
     for of, colour in reversed(list(zip(values, (FRONT, BEHIND)))):
@@ -126,7 +136,8 @@ def draw_panel(axes, subject, loads, component, factor, page):
 
 
 def label(axes, is_left, is_lowest):
-    """Labels a panel. Scales are common, so numbers and words are only at the left and at the bottom."""
+    """Labels the ticks and the time axis of a panel. Scales are common, so numbers of the y axis are only at the left
+    and the name of the time axis only at the lowest panel."""
     axes.locator_params(axis="y", nbins=4)
     axes.locator_params(axis="x", nbins=5)
     axes.tick_params(labelleft=is_left, labelbottom=is_lowest)

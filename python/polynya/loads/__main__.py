@@ -1,16 +1,17 @@
-"""`polynya loads` (polynya.command starts it)."""
+"""`polynya loads`: tables, figures and a page of the peaks of the ice force (polynya.command starts it)."""
 import pathlib
 import sys
 
 from ..command import fail, run
 from ..files import writing
 
-COMMAND = "polynya loads"
-DONE, USAGE = 0, 2
+COMMAND = "polynya loads"  # prefix of messages
+DONE, USAGE = 0, 2  # exit codes, with the values of app/command_line/console.hpp
 
 
 def draw(loads, estimates, options, out):
-    """Writes the figures. Returns the name of the SVG of each, and a description."""
+    """Writes the figures that have enough data into the folder `out` and prints their names. SVG is always among the
+    formats, because the page shows it. Returns (name of the SVG, description) for each figure."""
     from polynya.figures.page import STYLES, Page, save
 
     from . import pictures
@@ -26,6 +27,8 @@ def draw(loads, estimates, options, out):
 
 
 def report(options):
+    """Gathers the peaks, writes loads-*.csv, the figures and loads.html, and prints the results. Returns an exit code:
+    USAGE if the options do not fit the folder, for example a ship that the run does not have."""
     from polynya.errors import InputError
     from polynya.study.located_json import StudyError
 

@@ -1,4 +1,5 @@
-"""`polynya management FOLDER …` (polynya.command starts it)."""
+"""`polynya management FOLDER …`: measures the effect of ice management in runs, or ranks the patterns of a study
+(polynya.command starts it)."""
 import contextlib
 import csv
 import dataclasses
@@ -18,27 +19,29 @@ from .gates import Passage, distribution, gates_of, passages
 from .measures import effort, measures_of, rows_of
 from .options import command_line
 
-DONE = 0
+DONE = 0  # exit code; errors are exceptions, for which polynya.command chooses the code
 
 
 @dataclasses.dataclass
 class Case:
     """A run, and the ice that passed its gates."""
 
-    name: str
+    name: str  # the run's name in tables and figures
     run: Run
     gates: object
-    before: Passage
-    after: Passage
-    measures: dict
+    before: Passage  # ice that passed the upstream gate
+    after: Passage  # ice that passed the gate at the body
+    measures: dict  # name -> value, or None (measures.measures_of)
 
     @property
     def intervals(self):
-        """Rows of forces.csv that are counted."""
+        """Number of rows of forces.csv of the body after the start of the gates, at least 1: the divisor of fractions
+        of time."""
         return max(1, len(rows_of(self.run, self.gates.body, self.gates.start)["t_s"]))
 
 
 def given_by(arguments):
+    """The options for the gates that are given, with the names of a study's collect.management."""
     named = {"body": arguments.body, "upstream_m": arguments.upstream, "near_m": arguments.near,
              "width_m": arguments.width,
              "size_m": arguments.size, "from_s": arguments.start}
@@ -46,13 +49,15 @@ def given_by(arguments):
 
 
 def case_of(folder, name, given):
+    """Reads and measures the run in a folder."""
     run = Run(folder, pandas=False)
     gates = gates_of(run, given)
     return Case(name, run, gates, *passages(run, gates), measures_of(run, given))
 
 
 def labels_of(arguments):
-    """A name for each folder: the given ones, otherwise formed from the differences."""
+    """A name for each folder: the names of --label, otherwise the parts in which the folders' paths differ. Raises
+    InputError if the numbers of names and folders differ."""
     if arguments.label and len(arguments.label) != len(arguments.folders):
         raise InputError(f"--label: found {len(arguments.label)} names, allowed: one for each of the "
                          f"{len(arguments.folders)} folders", 2)
@@ -60,6 +65,7 @@ def labels_of(arguments):
 
 
 def shown(value):
+    """A measure with four digits, or a dash for None."""
     return "-" if value is None else f"{value:.4g}"
 
 
@@ -70,6 +76,8 @@ def print_cautions(cases):
 
 
 def print_cases(cases):
+    """Prints warnings, a table with a row per measure and a column per run, the effort of the icebreakers, and the
+    gates."""
     print_cautions(cases)
     names = list(cases[0].measures)
     width = max(map(len, names)) - len("management_")
@@ -90,6 +98,8 @@ def print_cases(cases):
 
 
 def write_tables(cases, folder):
+    """Writes management.csv, with a row of measures per run, and management-sizes.csv, with the floes that passed each
+    gate by their size."""
     with writing(folder / "management.csv", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(["run", *cases[0].measures])
@@ -108,7 +118,8 @@ def write_tables(cases, folder):
 
 
 def draw(arguments, out, figures_of):
-    """Writes the pictures that figures_of(page) returns as (name, figure), if matplotlib is installed."""
+    """Writes the pictures that figures_of(page) yields as (name, figure) into the folder `out`, and prints their names.
+    A figure that is None is left out. Without matplotlib it prints a line that says so."""
     try:
         from ..figures.page import STYLES, Page, save
     except ImportError as error:
@@ -122,7 +133,7 @@ def draw(arguments, out, figures_of):
 
 
 def report_study(arguments, out):
-    """Prints and writes the results of `polynya management STUDY`."""
+    """Gathers the study, then prints and writes the results of `polynya management STUDY`."""
     with contextlib.redirect_stdout(sys.stderr):  # stdout is for the results only
         gather(folders.open_study(arguments.folders[0]))
     found = study.read(arguments.folders[0])
@@ -166,6 +177,8 @@ def report_runs(arguments, out):
 
 
 def main():
+    """Runs the command. A folder with plan.json is a study; a study must be the only folder and takes no gates, because
+    its cases were measured with those of its collect.management."""
     arguments = command_line().parse_args()
     out = pathlib.Path(arguments.out or arguments.folders[0])
     studies = [folder for folder in arguments.folders if (pathlib.Path(folder) / folders.PLAN).is_file()]

@@ -1,4 +1,5 @@
-"""The cover of ice at gates across the drift: how much of a gate's length lies under ice."""
+"""The cover of ice at gates across the drift: the fraction of a gate's length that lies under ice. It shows how much
+ice arrives, independently of the sizes of its floes."""
 from __future__ import annotations
 
 import numpy
@@ -8,25 +9,29 @@ from .gates import axes_over_time
 
 
 class Outlines:
-    """Rings of floes in their body frames, and their reach from the frame's origin [m]."""
+    """Rings of a run's floes in their body frames [m], the outer one first and then the holes, and the reach of each
+    floe: the largest distance of a vertex from the origin of its frame [m]. A floe farther from a line than its reach
+    cannot cross the line, so that its rings need not be computed."""
 
     def __init__(self, run):
         self._run = run
         self._reach = numpy.full(len(run.births["floe_id"]), numpy.nan)
 
     def reach_of(self, ids):
+        """Reaches of floes [m], as an array in the order of the ids. Each is computed once."""
         unknown = ids[numpy.isnan(self._reach[ids])]
         for floe, rings in self._run.shapes.of(unknown).items():
             self._reach[floe] = numpy.hypot(*rings[0].T).max()
         return self._reach[ids]
 
     def of(self, ids):
+        """{id: rings} of floes."""
         return self._run.shapes.of(ids)
 
 
 def crossings(rings, line):
-    """Sorted positions y at which rings cross the line x = `line`. The ice lies between the first and the second one,
-    between the third and the fourth one, and so on."""
+    """Sorted positions y [m] at which the rings of one floe cross the line x = `line`. The ice lies between the first
+    and the second one, between the third and the fourth one, and so on; holes are left out by this."""
     found = []
     for ring in rings:
         (x, y), following = ring.T, numpy.roll(ring, -1, axis=0)
@@ -37,7 +42,8 @@ def crossings(rings, line):
 
 
 def covered(stretches, half):
-    """Length of the union of stretches (low, high) within ± half [m]."""
+    """Length of the union of stretches (low, high) within −half to half [m]. Ice counts once where stretches
+    overlap."""
     total, reached = 0.0, -half
     for low, high in sorted(stretches):
         low, high = max(low, reached), min(high, half)
@@ -48,7 +54,8 @@ def covered(stretches, half):
 
 
 def covers_at(frame, outlines, axis, origin, gates):
-    """Fractions of the length of the upstream gate and of the gate at the body that lie under floating ice."""
+    """Fractions of the length of the upstream gate and of the gate at the body that lie under floating ice in a frame
+    of the run. `axis` is the unit vector upstream and `origin` the position of the body in the world [m]."""
     ids, poses = frame.ids[~frame.is_under], frame.poses[~frame.is_under]
     along, reach = (poses[:, :2] - origin) @ axis, outlines.reach_of(ids)
     across = numpy.array([-axis[1], axis[0]])

@@ -1,22 +1,30 @@
-"""Drift of a scene over time, as in simulation/world/scene.cpp."""
+"""Velocity of free ice in a scene over time, from which the upstream direction of the gates is computed.
+
+It must be the same as `free_drift` in simulation/world/scene.cpp, by which the pilots place their patterns. Scenes are
+resolved ones, with all defaults. Velocities are vectors over ground [m/s]. Directions are those in which water or air
+moves, counter-clockwise from the x axis [deg]."""
 import math
 
 import numpy
 
 
 def unit(degrees):
+    """Unit vector of a direction [deg]."""
     angle = math.radians(degrees)
     return numpy.array([math.cos(angle), math.sin(angle)])
 
 
 def by_rows(rows, time):
-    """Velocity from a table as a vector, linear between its rows [m/s]."""
+    """Velocity from the rows of a drift or wind table at a time [s], as a vector [m/s]. The vector is interpolated
+    linearly between rows; before the first and after the last row it is that of the row."""
     times = [row["t_s"] for row in rows]
     velocities = numpy.array([row["speed_m_per_s"] * unit(row["direction_deg"]) for row in rows])
     return numpy.array([numpy.interp(time, times, velocities[:, k]) for k in (0, 1)])
 
 
 def tide(ellipse, time):
+    """Velocity of the tidal current at a time [s], as a vector [m/s]: the major axis times the cosine of the phase
+    along the ellipse's direction, and the minor axis times its sine to port of that direction."""
     angle = 2 * math.pi * time / ellipse["period_s"] + math.radians(ellipse["phase_deg"])
     along = unit(ellipse["direction_deg"])
     across = numpy.array([-along[1], along[0]])
@@ -24,7 +32,9 @@ def tide(ellipse, time):
 
 
 def free_drift(scene, time):
-    """Velocity of free ice over ground: that of the water, plus that by wind through the water [m/s]."""
+    """Velocity of free ice over ground at a time [s], as a vector [m/s]: that of the water, plus the velocity through
+    the water at which the drag of the wind and that of the water are equal. Without drag of the water
+    (skin_drag_coefficient 0) the wind is ignored."""
     water, wind = scene["water"], scene["wind"]
     rows = water.get("drift_table")
     velocity = by_rows(rows, time) if rows else numpy.array(water["drift_m_per_s"], dtype=float)

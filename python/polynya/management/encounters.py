@@ -11,15 +11,19 @@ import numpy
 from ..results.motions import placed
 from .gates import axes_over_time, reach
 
-STEP = 0.5  # largest relative displacement of two hulls between two compared poses [m]; smaller: slower, more exact
-MOST_STEPS = 50  # largest number of compared poses between two rows of forces.csv
+# Largest relative displacement of two hulls between two compared poses [m]. Apart from rotation, the smallest distance
+# is too large by at most half of it. Smaller values are slower and more exact.
+STEP = 0.5
+# Largest number of compared poses between two rows of forces.csv. It bounds the time for rows far apart, where steps
+# are then longer than STEP.
+MOST_STEPS = 50
 
 
 @dataclasses.dataclass(frozen=True)
 class Encounters:
-    """Encounters of the protected body with all other ships of a scene in the whole run."""
+    """Encounters of the protected body with all other ships of a scene in the whole run, also before Gates.start."""
 
-    hits: int  # number of separate contacts
+    hits: int  # number of separate contacts (encounters_of)
     load: float  # largest horizontal force of hulls on the body during a contact, mean over a row of forces.csv [N]
     distance: float  # smallest distance between the waterlines; 0 at a contact [m]
 
@@ -37,7 +41,8 @@ def loads_of_hulls(run, name):
 
 
 def poses(run, name):
-    """Times [s] and poses x, y [m], heading [rad] of a body: of the first frame, then of each row of forces.csv."""
+    """Times [s] and poses x, y [m], heading [rad] of a body: at the start of the run, then of each row of
+    forces.csv. Headings do not jump by 360°, so that they can be interpolated."""
     columns = run.force_columns
     own = columns["ship"] == name
     rows = numpy.column_stack([columns[key][own] for key in ("x_m", "y_m", "heading_deg")])
@@ -50,8 +55,8 @@ def poses(run, name):
 
 
 def refined(times, of_body, of_ship):
-    """Poses of both at the given times and between them, so that neither moves more than STEP relative to the other.
-    Motion between rows is linear."""
+    """Poses of both bodies at the given times and between them, such that the origin of one moves at most STEP relative
+    to the other between two poses (but MOST_STEPS). Motion between rows is linear. Rotation is not limited."""
     moved = numpy.hypot(*(numpy.diff(of_ship, axis=0) - numpy.diff(of_body, axis=0))[:, :2].T)
     counts = numpy.clip(numpy.ceil(moved / STEP), 1, MOST_STEPS).astype(int)
     fine = numpy.concatenate([numpy.linspace(a, b, n, endpoint=False) for a, b, n in zip(times, times[1:], counts)]
@@ -60,7 +65,7 @@ def refined(times, of_body, of_ship):
 
 
 def to_edges(points, ring):
-    """Smallest distance from points to the edges of a ring [m]."""
+    """Smallest distance from points to the edges of a ring, both n × 2 [m]."""
     start, way = ring, numpy.roll(ring, -1, axis=0) - ring
     off = points[:, None, :] - start[None, :, :]
     length = numpy.maximum((way**2).sum(axis=1), 1e-300)
@@ -69,6 +74,7 @@ def to_edges(points, ring):
 
 
 def cross(a, b):
+    """Cross products of vectors along the last axis; positive if b points to port of a."""
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
@@ -82,7 +88,7 @@ def contains(ring, point):
 
 
 def overlap(one, other):
-    """Returns True if two rings cross, or if one lies inside the other."""
+    """Returns True if two rings cross or touch, or if one lies inside the other. Parallel edges never cross."""
     a, b = numpy.roll(one, -1, axis=0) - one, numpy.roll(other, -1, axis=0) - other
     off = other[None, :, :] - one[:, None, :]
     turn = cross(a[:, None, :], b[None, :, :])
@@ -98,8 +104,9 @@ def ring_distance(one, other):
 
 
 def closest(run, body, ship):
-    """Smallest distance between the waterlines of two bodies in the whole run [m]. Poses are compared in the order of
-    the least distance that the reach of the hulls allows, until no further pose can be closer."""
+    """Smallest distance between the waterlines of two bodies in the whole run [m]; 0 if they overlap. Poses are
+    compared in the order of a lower bound, the distance of the bodies minus the reaches of both hulls, until the bound
+    of the next pose is not below the smallest distance found."""
     (times, of_body), (of_times, of_ship) = poses(run, body), poses(run, ship)
     count = min(len(times), len(of_times))
     of_body, of_ship = refined(times[:count], of_body[:count], of_ship[:count])
@@ -114,16 +121,16 @@ def closest(run, body, ship):
 
 
 def met(run, body, ship):
-    """Returns True if events.ndjson has a contact of the two bodies."""
+    """Returns True if events.ndjson has a contact of the two bodies. It catches contacts between two compared poses."""
     events = run.event_columns
     pairs = zip(events["kind"], events.get("ship", ()), events.get("by_ship", ()))
     return any(kind == "ship_contact" and {one, other} == {body, ship} for kind, one, other in pairs)
 
 
 def encounters_of(run, body):
-    """Encounters of a body with the other ships; None if there are none. A hit is a stretch of rows of forces.csv in
-    which hulls press both the body and the other ship. A contact without such a row, for example of bodies whose
-    motions are prescribed, counts as one."""
+    """Encounters of a body with the other ships; None if the scene has no other ship. A hit is a stretch of successive
+    rows of forces.csv in which hulls press both the body and the other ship. A ship that touched the body without such
+    a row, for example because both motions are prescribed, counts as one hit."""
     ships = other_ships(run, body)
     if not ships:
         return None
@@ -142,8 +149,9 @@ def encounters_of(run, body):
 
 
 def beyond_gate(run, gates):
-    """Time for which the waterline of another ship reached beyond the upstream gate, within its width [s]. That ship
-    breaks ice before it is counted there."""
+    """Time after gates.start for which a vertex of the waterline of any other ship was beyond the upstream gate, within
+    its width [s]. That ship breaks ice before it is counted there. Only frames are looked at: each counts for the time
+    until the next one."""
     upstream, _ = axes_over_time(run)
     steps = numpy.diff(run.times, append=run.times[-1:])
     number, seconds = run.ship_names.index(gates.body), 0.0

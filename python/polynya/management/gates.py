@@ -1,4 +1,9 @@
-"""Measures the ice that passes gates, which are lines across the drift upstream of a protected body."""
+"""Measures the ice that passes two gates, which are lines across the drift upstream of a protected body
+(docs/management.md). One is beyond the patterns of the icebreakers, one just before the body. The gates move with the
+body and turn with the drift.
+
+`given` are the settings of a study's collect.management: body, upstream_m, near_m, width_m, size_m and from_s, each of
+which may be missing. Sizes of floes are √area [m]."""
 from __future__ import annotations
 
 import dataclasses
@@ -9,29 +14,34 @@ import numpy
 from ..errors import InputError
 from .drift import free_drift
 
-LEAST_DRIFT = 0.02  # [m/s]; ice that drifts more slowly has no upstream direction, as for pilots
-BINS = 40  # number of intervals of a gate's width
+# Speed of the free drift below which the upstream direction stays as it was [m/s]. It must be kLeastDrift of
+# simulation/ship/manage.cpp, so that gates turn as the patterns do.
+LEAST_DRIFT = 0.02
+# Number of equal parts of a gate's width in which managed_width looks for large floes. More parts make that width
+# finer.
+BINS = 40
 
 
 @dataclasses.dataclass(frozen=True)
 class Gates:
-    """Positions of the gates, and the size of floes that count as large."""
+    """Positions of the gates, and the size of floes that count as large. Distances are from the origin of the body's
+    frame, upstream."""
 
-    body: str
-    upstream: float  # distance of the gate before management [m]
+    body: str  # name of the protected ship or structure
+    upstream: float  # distance of the gate beyond the patterns, which ice passes before it is managed [m]
     near: float  # distance of the gate just before the body [m]
-    width: float  # width of both gates across the drift [m]
-    size: float  # √area of the smallest floe that counts as a hit and as not managed [m]
-    start: float = 0.0  # only times from here on count [s]
+    width: float  # width of both gates across the drift, half of it on each side of the body [m]
+    size: float  # √area of the smallest floe that counts as a hit and as not managed [m]; 20 m if not given
+    start: float = 0.0  # only times after this one count [s]
 
 
 @dataclasses.dataclass
 class Passage:
     """Floes that passed a gate, in the order of their ids."""
 
-    floes: numpy.ndarray
-    times: numpy.ndarray  # [s]
-    across: numpy.ndarray  # position in the gate, to port of upstream [m]
+    floes: numpy.ndarray  # ids
+    times: numpy.ndarray  # times of the first frames in which they had passed [s]
+    across: numpy.ndarray  # positions in the gate, to port of the upstream direction [m]
     areas: numpy.ndarray  # [m²]
 
     @property
@@ -41,18 +51,19 @@ class Passage:
 
     @property
     def mean_size(self):
-        """Mean size √area of the ice, weighted by area [m]."""
+        """Mean size √area of the floes, weighted by area [m]; None without a floe."""
         return float((self.sizes * self.areas).sum() / self.areas.sum()) if len(self.areas) else None
 
 
 def managing(scene):
-    """Pilots that manage ice, by ship."""
+    """{ship: settings of its pilot `manage`} of the ships that manage ice."""
     pilots = {ship["name"]: (ship.get("pilot") or {}).get("manage") for ship in scene["ships"]}
     return {name: pilot for name, pilot in pilots.items() if pilot}
 
 
 def protected_body(scene):
-    """The body that the pilots protect; without pilots the first moored ship, or the first structure."""
+    """Name of the body that the first managing pilot protects; without one the first moored ship, otherwise the first
+    structure. Raises InputError if there is none of these."""
     pilots = managing(scene)
     if pilots:
         return next(iter(pilots.values()))["body"]
@@ -70,8 +81,9 @@ def reach(waterline):
 
 
 def gates_of(run, given):
-    """Gates of a run: the given ones ({"body": …, "upstream_m": …}), otherwise derived from the patterns of its
-    pilots."""
+    """Gates of a run: the given ones, otherwise derived from the patterns of its pilots. The upstream gate is then one
+    radius of the body beyond the farthest pattern, the near one at 1.5 radii, and both are as wide as the widest
+    pattern. Raises InputError if a gate is neither given nor derivable, or if near is not before upstream."""
     scene = run.scene
     body = given.get("body") or protected_body(scene)
     if body not in run.waterlines:
@@ -97,13 +109,16 @@ def gates_of(run, given):
 
 
 def depth_of(pilot):
-    """Depth of a pattern [m], as io/scene/ship_completion.cpp completes it."""
+    """Depth of a pattern along the drift [m]; if the scene has none, that by which complete_depth of
+    io/scene/ship_completion.cpp completes it."""
     share = {"circular": 1, "largest_floe": 1, "racetrack": 0.25}.get(pilot["pattern"], 0)
     return pilot.get("depth_m") or share * pilot["width_m"]
 
 
 def axes_over_time(run):
-    """Unit vector upstream at each frame, and distance that the ice drifts until the next frame [m]."""
+    """Returns two arrays with a row per frame: the unit vector upstream, and the distance that free ice drifts until
+    the next frame [m], 0 for the last one. Both are those of the middle of the interval. As long as the drift is slower
+    than LEAST_DRIFT, the direction is the last one, and the x axis at the start."""
     upstream, ways = [], []
     last = numpy.array([1.0, 0.0])
     times = run.times
@@ -117,8 +132,8 @@ def axes_over_time(run):
 
 
 def places_over_time(run, body):
-    """For each frame: ids of the floating floes, and their positions relative to the body, x upstream and y to port of
-    that direction [m]."""
+    """Yields for each frame the ids of the floes that are not under a hull, and the positions of their centres of mass
+    relative to the body, x upstream and y to port of that direction [m]."""
     number = run.ship_names.index(body)
     upstream, _ = axes_over_time(run)
     births = run.births
@@ -131,8 +146,9 @@ def places_over_time(run, body):
 
 
 def passages(run, gates):
-    """Returns the ice that passed the upstream gate and the gate at the body. A floe passes once, when its centre does.
-    Pieces of a floe that breaks after that do not count again."""
+    """Returns the Passages of the upstream gate and of the gate at the body. A floe passes once, when its centre of
+    mass does between two frames. Pieces of a floe that breaks before the gate pass on their own; those of a floe that
+    breaks after it do not count again. Passing beside the gate, or before gates.start, does not count."""
     count = len(run.births["floe_id"])
     parents = run.births["parent_id"]
     lines = (gates.upstream, gates.near)
@@ -160,6 +176,7 @@ def passages(run, gates):
 
 
 def passage_of(run, rows):
+    """The Passage of rows (floe, time, position across)."""
     rows = sorted(rows)
     floes = numpy.array([row[0] for row in rows], dtype=int)
     return Passage(floes, numpy.array([row[1] for row in rows]), numpy.array([row[2] for row in rows]),
@@ -167,8 +184,8 @@ def passage_of(run, rows):
 
 
 def managed_width(passage: Passage, gates) -> float:
-    """Width of the stretch around the body in which no floe of that size passed the gate [m]. A floe occupies √area
-    across."""
+    """Width of the stretch around the middle of the gate in which no floe of at least gates.size passed [m], in
+    steps of width / BINS; 0 if one passed through the middle of the gate. A floe occupies √area across the gate."""
     edges = numpy.linspace(-0.5 * gates.width, 0.5 * gates.width, BINS + 1)
     is_free = numpy.ones(BINS, dtype=bool)
     for y, size in zip(passage.across, passage.sizes):
@@ -180,7 +197,8 @@ def managed_width(passage: Passage, gates) -> float:
 
 
 def distribution(passage: Passage, edges: Optional[numpy.ndarray] = None):
-    """Number of floes and area of ice [m²] of each size between edges [m]."""
+    """Returns (edges, numbers, areas): the number of floes and their area [m²] with sizes between successive edges [m].
+    By default there are ten classes per decade from 1 to 1000 m; other sizes are left out."""
     edges = numpy.geomspace(1, 1000, 31) if edges is None else edges
     numbers, _ = numpy.histogram(passage.sizes, edges)
     areas, _ = numpy.histogram(passage.sizes, edges, weights=passage.areas)

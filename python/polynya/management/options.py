@@ -1,7 +1,11 @@
-"""The command line of `polynya management`."""
+"""The command line of `polynya management`.
+
+Options for the gates have no default here. gates.gates_of computes the values that are not given; the help states
+them."""
 from ..arguments import Parser, choice, choices, number
 from ..figures.options import FORMATS, STYLES
 
+# Examples in the help, without the word "polynya", and the text after the options.
 EXAMPLES = (
     "management runs/ice-management",
     "management runs/managed runs/unmanaged --body drillship --upstream 700 --width 300",

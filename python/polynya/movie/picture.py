@@ -1,4 +1,7 @@
-"""Pictures of a film: a map, and below it the force on the ship."""
+"""Pictures of a film: a map of the ice and the hulls, below it a key, and below that the force of the ice on the ship.
+
+Most time goes into drawing floes. So parts that do not change are drawn once, and on a map that stays in place also the
+floes that do not move visibly for a while."""
 from __future__ import annotations
 
 import dataclasses
@@ -17,41 +20,50 @@ from polynya.scenery import LEAST_PIXELS, NOTHING, Scenery
 
 from .history import History
 
+# (word in the key, colour) of the kinds of floes, in the order of scenery.COLOURS.
 FLOES = tuple(zip(("ice", "broken off", "come up from under a hull", "under a hull"), colours.COLOURS))
+# (kind of event, word in the key, marker) of the fractures that are marked.
 FRACTURES = (("bend", "cusp bends off", "o"), ("split", "floe splits", "^"), ("grind", "ice grinds", "s"))
-HEAD, KEY, CHART = 0.07, 0.055, 0.25  # heights in fractions of a picture
-FOLLOWED = 2.0  # least width of a map that follows a ship, in lengths of the ship
-RESTING = 1.0  # time for which a picture of the resting floes is used [s of the film]; longer: floes lag behind more
-AT_REST = 0.1  # largest displacement of a floe that counts as resting [px]
-SHOWN = 0.8  # time for which the mark of a fracture is shown [s of the film]
-POINTS_PER_HEIGHT = 0.0195 * 72  # font size for a picture of 1 inch height [pt]
+HEAD, KEY, CHART = 0.07, 0.055, 0.25  # heights of title, key and force chart in fractions of a picture
+# Length of the shorter side of a map that follows a ship, in lengths of the ship. Larger values show more of the
+# surroundings, and the ship smaller.
+FOLLOWED = 2.0
+# Time for which a picture of the resting floes is used [s of the film]. With a longer time this picture is drawn less
+# often, but fewer floes rest that long, so that more are drawn in each picture.
+RESTING = 1.0
+# Largest displacement during that time of a floe that counts as resting [px]. It is also the largest error of its place
+# in the film. Larger values draw faster, and resting floes jump visibly.
+AT_REST = 0.1
+SHOWN = 0.8  # time for which the mark of a fracture is shown, while it fades [s of the film]
+POINTS_PER_HEIGHT = 0.0195 * 72  # font size per inch of the picture's height [pt]: 0.0195 of the height
 
 
 @dataclasses.dataclass(frozen=True)
 class Look:
     """Settings of a film."""
 
-    size: tuple = (1280, 720)  #: [px]
+    size: tuple = (1280, 720)  #: width and height [px]
     follow: Optional[str] = None  #: ship that the map follows; None: the map shows the whole run
     start: Optional[float] = None  #: start of the force's time axis [s]; None: that of the run
-    end: Optional[float] = None
+    end: Optional[float] = None  #: end of the force's time axis [s]; None: that of the run
     speed: float = 1.0  #: simulated seconds per second of the film
     is_film: bool = True  #: false: a single picture, which states no speed
 
     @property
     def dots(self):
-        """Dots per inch."""
+        """Dots per inch, which relate font sizes and line widths [pt] to pixels."""
         return 100
 
 
 def bar_length(room):
-    """The longest of 1, 2, 5 · 10ⁿ metres that is at most `room`."""
+    """Length of the scale bar: the longest of 1, 2, 5 · 10ⁿ metres that is at most `room` [m]."""
     power = 10.0 ** numpy.floor(numpy.log10(room))
     return float(max(step * power for step in (1, 2, 5) if step * power <= room))
 
 
 class Picture:
-    """Draws a run at one time after another. Parts that do not change are drawn once."""
+    """Draws a run at one time after another with the settings of a Look. Times may go back, but are drawn fastest in
+    order. Raises ValueError if there is no ship to follow with that name."""
 
     def __init__(self, run, look):
         self.run, self.look = run, look
@@ -64,6 +76,8 @@ class Picture:
             self._lay_out()
 
     def _lay_out(self):
+        """Makes the figure with everything in it, and stores the picture of what does not change. There is no chart if
+        the run has no ship or no row of forces.csv."""
         width, height = self.look.size
         self.figure = Figure(figsize=(width / self.look.dots, height / self.look.dots), dpi=self.look.dots)
         self.canvas = FigureCanvasAgg(self.figure)
@@ -87,6 +101,7 @@ class Picture:
             self.history.prepare(self.canvas)
 
     def _head(self):
+        """Writes the name of the run, smaller if it would reach the clock."""
         name = self.figure.text(0.015, 1 - HEAD / 2, self.run.name, ha="left", va="center",
                                 fontweight="bold", fontsize=1.1 * self._font)
         room = 0.62 * self.look.size[0]
@@ -95,8 +110,8 @@ class Picture:
             name.set_fontsize(1.1 * self._font * room / taken)
 
     def _set_window(self):
-        """Sets width, height and origin of the map in metres. A map that follows no ship shows the whole run,
-        centred."""
+        """Sets the scale of the map, and half of its width and height in metres. A map that follows no ship shows the
+        whole run, centred, and stays there."""
         box = self._map.get_window_extent()
         if self.look.follow is None:
             x0, y0, x1, y1 = self.scenery.extent
@@ -111,17 +126,21 @@ class Picture:
             self._move_to(self._middle)
 
     def _move_to(self, middle):
+        """Moves the map so that its middle is at a position in the world [m]."""
         (x0, y0), (x1, y1) = middle - self._half, middle + self._half
         self._window = (x0, y0, x1, y1)
         self._map.set_xlim(x0, x1)
         self._map.set_ylim(y0, y1)
 
     def _patch(self, **style):
+        """Adds an empty patch to the map, whose path each picture sets."""
         patch = PathPatch(NOTHING, animated=True, joinstyle="round", **style)
         self._map.add_patch(patch)
         return patch
 
     def _make_ice(self):
+        """Makes the patches of ice, hulls, walls and tracks. Returns those of each picture in the order of drawing: ice
+        under hulls is drawn last, over the hulls."""
         edge = float(numpy.clip(0.12 * self._metre, 0.06, 1.0)) * self.look.size[1] / 720
         self._at_start = self._patch(facecolor=colours.AT_START, linewidth=0)
         self._floes = [self._patch(facecolor=colour, edgecolor=colours.EDGE, linewidth=edge) for _, colour in FLOES[:3]]
@@ -136,6 +155,7 @@ class Picture:
         return [*self._floes, self._tracks, self._walls, self._hulls, self._under]
 
     def _make_marks(self):
+        """Makes the marks of fractures by kind, and returns them."""
         size = 0.9 * self._font**2
         self._marks = {
             kind: self._map.scatter([], [], s=size * (0.5 if kind == "bend" else 1),
@@ -162,11 +182,12 @@ class Picture:
             x = self._word(axes, x + 0.8 * gap, word, small) + gap
 
     def _word(self, axes, x, word, size):
+        """Writes a word of the key at x [px] in a font size [pt]. Returns the x at which it ends."""
         text = axes.text(x, 0, word, fontsize=size, va="center_baseline")
         return x + text.get_window_extent().width
 
     def _keys(self):
-        """Legend entries for the kinds of objects in the run."""
+        """Yields (word, style of the mark) for the kinds of floes and fractures that occur in the run at any time."""
         births, kinds = self.run.births, set(self.run.event_columns["kind"])
         has = (True, bool((births["generation"] > 0).any()), bool(births["came_up"].any()),
                bool(numpy.isfinite(births["went_under_s"]).any()))
@@ -179,7 +200,7 @@ class Picture:
                 yield word, {"marker": marker, "color": colours.MARKS[kind], "markeredgewidth": 0}
 
     def draw(self, time):
-        """Returns the picture at a time [s]: rows × columns × 4 bytes, valid until the next call."""
+        """Returns the picture at a simulated time [s]: rows × columns × 4 bytes (RGBA). The next call overwrites it."""
         frame = self.run.frame(time)
         if self.look.follow is not None:
             names = self.run.ship_names
@@ -199,18 +220,21 @@ class Picture:
         return pixels
 
     def _draw_artists(self, artists):
+        """Draws artists onto the canvas, except patches without a path."""
         for artist in artists:
             if not (isinstance(artist, PathPatch) and len(artist.get_path().vertices) == 0):
                 self._map.draw_artist(artist)
 
     def _set_floes(self, frame, among):
+        """Sets the paths of the floes' patches to those of a frame. `among` is a mask of the floes; None: all."""
         for patch, path in zip((*self._floes, self._under),
                                self.scenery.floes(frame, self._window, self._least, among)):
             patch.set_path(path)
 
     def _lay_ice(self, frame):
-        """Restores the picture of the parts that do not change; if the map stays in place, this includes the resting
-        floes. Returns the floes that must still be drawn."""
+        """Restores the picture of the parts that do not change, and sets the paths of the floes that must be drawn on
+        it. In a film whose map stays in place the restored picture contains the resting floes, and only the others are
+        left."""
         if self.look.follow is not None or not self.look.is_film:
             self._at_start.set_path(self.scenery.ice_at_start(self._window, self._least))
             self.canvas.restore_region(self._background)
@@ -222,7 +246,8 @@ class Picture:
         return self._set_floes(frame, ~self._resting[frame.ids])
 
     def _draw_resting(self, frame):
-        """Draws the floes that will rest for a while after a frame's time, and stores which they are."""
+        """Draws the floes that rest from a frame's time on for RESTING: they move by less than AT_REST and neither
+        break nor go under a hull. Stores their mask by id and the picture."""
         self._rest_from = frame.time
         self._rest_until = min(frame.time + RESTING * self.look.speed, self.run.end_time)
         births, ids = self.run.births, frame.ids

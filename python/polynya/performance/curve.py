@@ -1,5 +1,5 @@
-"""Runs of a curve, one per thickness. A run is repeated with a longer course until the speed is steady. Finished runs
-are kept and reused."""
+"""The curve of the speed at full power over the thickness of level ice, with one run per thickness. A run is repeated
+with a course twice as long until the mean speed is steady. Finished runs are kept and reused."""
 import dataclasses
 import pathlib
 
@@ -7,27 +7,31 @@ from .. import formulas
 from ..runs_kept import kept_run
 from . import level_ice
 
-FIRST, MOST = 5, 20  # first and largest length of the course, in lengths of the ship
-# Ice up to this thickness was compared with measurements [m], docs/validation.md, "A ship in level ice".
+# First and largest length of the course, in lengths of the ship. The first 2.2 lengths do not count. With a larger MOST
+# fewer points are marked "not steady", and runs in thick ice become longer.
+FIRST, MOST = 5, 20
+# Largest thickness for which speeds are within or close to the published formulas [m] (docs/validation.md, "A ship in
+# level ice"). Rows of thicker ice are marked with "*".
 VALIDATED_THICKNESS = 0.5
+# Meanings of the marks "*" and "!" below the printed table. The keys of BEYOND are the results of beyond_band.
 THICKER = f"thicker than {VALIDATED_THICKNESS:g} m, outside the range of validation"
 BEYOND = {1: "faster than by every formula", -1: "slower than by every formula"}
 
 
 def beyond_band(speed, of_formulas):
-    """1 if a speed is above those of all formulas, -1 if it is below all, 0 if it is between them."""
+    """Returns 1 if a speed is above those of all formulas, -1 if it is below all, 0 if it is between them."""
     return int(speed > max(of_formulas)) - int(speed < min(of_formulas))
 
 
 def mark_of(row):
-    """Mark of a point that is not supported: "!" outside of the range of the formulas, "*" for ice thicker than was
-    validated."""
+    """Marks of a row whose speed is not supported: "*" if the ice is thicker than was validated, and "!" if the speed
+    is above or below those of all published formulas. Empty if it is supported."""
     return ("*" if not row["is_in_validated_range"] else "") + ("!" if row["beyond_formulas"] else "")
 
 
 def formula_words(rows):
-    """The share of the resistance that no mechanics of the simulation gives, of the points where the ship moves; or
-    nothing."""
+    """Says how much of the resistance is not computed by mechanics but is Lindqvist's formula for ice under the hull,
+    as the range in percent over the rows in which the ship moves. Empty if it moves in none."""
     shares = [100 * row["formula_share"] for row in rows if row["formula_share"] > 0]
     if not shares:
         return ""
@@ -36,20 +40,26 @@ def formula_words(rows):
 
 
 class Curve:
+    """The curve of one ship. `ship` is the ship of a scene, `hull` its formulas.Hull, `engine` its bollard pull [N] and
+    open-water speed [m/s], and `ice` a formulas.Ice whose thickness is replaced. Runs are in `folder`. `error` is the
+    largest accepted standard error of a mean speed, as a fraction of it, and `step` the time step [s]."""
+
     def __init__(self, ship, hull, engine, ice, folder, program, error, step):
         self.ship, self.hull, self.engine, self.ice = ship, hull, engine, ice
         self.folder, self.program, self.error, self.step = pathlib.Path(folder), program, error, step
 
     def level(self, thickness):
-        """Ice of a thickness [m]."""
+        """The ice with another thickness [m]."""
         return dataclasses.replace(self.ice, thickness=thickness)
 
     def formula_speeds(self, thickness):
-        """Speeds at which published resistances equal the net thrust [m/s]."""
+        """Speeds at which the resistances by published formulas equal the net thrust [m/s], by the formula's name."""
         return formulas.level_ice_speeds(self.hull, self.engine, self.level(thickness))
 
     def first_speed(self, thickness):
-        """Initial speed of a run [m/s]: slightly less than Lindqvist's resistance equals the net thrust there."""
+        """Initial speed of a run [m/s]: that at which 0.8 of Lindqvist's resistance equals the net thrust, at least
+        0.5 m/s. It is near the steady speed, so that the ship settles early. The run lasts as long as the course takes
+        at this speed."""
         ice = self.level(thickness)
         speed = formulas.equilibrium(
             self.engine["bollard_pull_N"],
@@ -59,7 +69,7 @@ class Curve:
         return max(0.5, speed)
 
     def point(self, thickness):
-        """Computes one row of the curve."""
+        """Runs the ship in ice of a thickness [m] and returns its row of performance.csv. Raises RunFailed."""
         speed, lengths = self.first_speed(thickness), FIRST
         while True:
             name = f"level-{thickness:g}-{lengths}"

@@ -1,17 +1,26 @@
-"""The command line of `polynya performance`. Its ranges are those of the scene's keys."""
+"""The command line of `polynya performance`. The allowed ranges of thickness, strength, friction and time step are
+those of the scene's keys.
+
+An option that is not given is None until read_options fills in DEFAULTS. Other defaults depend on the use of the
+command: those of fields are in coefficients.py, that of the thicknesses in __main__.py."""
 import os
 
 from ..arguments import Parser, number, numbers
 
-FLEXURAL_STRENGTH, FRICTION = 500e3, 0.1  # defaults of the command line [Pa], [-]
-STEP = 0.01  # time step of the runs in level ice at full power [s]
+# Flexural strength [Pa] and friction on the hull [-] of the ice if they are not given. The speeds at
+# full power in docs/validation.md are for these values, except Araon's strength.
+FLEXURAL_STRENGTH, FRICTION = 500e3, 0.1
+# Time step of the runs in level ice at full power if --step is not given [s]. The help of --step states it.
+STEP = 0.01
 
-# Values of options that are not given.
+# Values of options that are not given and that do not depend on the use of the command.
 DEFAULTS = {"error": 0.03, "fields": 2, "jobs": os.cpu_count() or 1}
+# Groups of options that are used together.
 OF_ICE = {"thickness", "flexural_strength", "friction"}
 OF_RUNS = {"step", "out", "jobs"}
 OF_FIELDS = {"cover", "floe_size", "fields"}
-# Options that each use of the command reads. An option that a use does not read is refused.
+# Options that each use of the command reads. The keys are used in messages, and use_of returns one of them. An option
+# that a use does not read is refused, so that nobody believes it had an effect.
 USES = {
     "the speed in level ice": OF_ICE | OF_RUNS | {"error"},
     "--list": OF_ICE,
@@ -23,6 +32,7 @@ USES = {
     "--channel --list": set(),
 }
 
+# Examples in the help, without the word "polynya", and the text after the options.
 EXAMPLES = (
     "performance polaris                       ten thicknesses, on all processors",
     "performance araon --flexural-strength 630e3 --friction 0.1",
@@ -45,7 +55,8 @@ included, and a second table has resistance and minimum power for the Finnish-Sw
 
 
 def values(one):
-    """Reads a list of numbers, sorts it and removes repeated ones."""
+    """Returns a reader of a list of numbers, separated by commas, that sorts it and removes repeated ones. `one` is the
+    reader of a single number."""
     return lambda text: sorted(set(numbers(one)(text)))
 
 
@@ -53,7 +64,7 @@ thicknesses = values(number(1e-3, 20, "m"))
 
 
 def add_coefficients(parser):
-    """Adds the options for tables of resistance."""
+    """Adds the options for tables of resistance: --pack, --level or --channel, and the points of the table."""
     which = parser.add_mutually_exclusive_group()
     for name, ice in (("--pack", "pack ice"), ("--level", "level ice"), ("--channel", "a channel of brash ice, 1.5 "
                                                                           "beams wide in fast ice")):
@@ -97,14 +108,15 @@ def command_line():
 
 
 def use_of(arguments):
-    """The use of the command that the options ask for: a key of USES."""
+    """The use of the command that the options ask for: a key of USES. Without --pack, --level, --channel and --list it
+    is the first one."""
     regime = next((f"--{name}" for name in ("pack", "level", "channel") if getattr(arguments, name)), "")
     return " ".join(filter(None, [regime, "--list" if arguments.list else ""])) or next(iter(USES))
 
 
 def problem_of(arguments):
-    """What is wrong with options that are valid one by one: an option that the use of the command does not read. An
-    empty text if nothing is."""
+    """Returns a message on the first option that is given although the use of the command does not read it; empty if
+    there is none."""
     use = use_of(arguments)
     for name in sorted(set().union(*USES.values()) - USES[use]):
         if getattr(arguments, name) is not None:
@@ -114,7 +126,8 @@ def problem_of(arguments):
 
 
 def read_options(words=None):
-    """Reads the command line, ends the command if it is wrong, and fills in the values that were not given."""
+    """Reads the command line and fills in the values of DEFAULTS that were not given. Ends the command with exit code 2
+    and a message if an option is wrong or not used. `words` are those after the command's name; None: sys.argv."""
     parser = command_line()
     arguments = parser.parse_args(words)
     if problem := problem_of(arguments):

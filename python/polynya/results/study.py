@@ -1,4 +1,4 @@
-"""Reads a study's folder."""
+"""Reads the folder of a study: its plan, its table and its runs."""
 from __future__ import annotations
 
 import os
@@ -20,9 +20,12 @@ from .tables import table
 class Study:
     """A folder that `polynya study` planned, ran and gathered (docs/studies.md).
 
-    Raises NotAStudyError; VersionError; FolderError if the table has not been gathered; and UnfinishedError if cases
-    are missing, except with `unfinished=True`. `table["state"]` then says which cases are "finished", "failed",
-    "unfinished" or "missing"."""
+    `pandas` selects the kind of `table` and of the tables of runs: a pandas frame (True), a structured array (False),
+    or a frame if pandas is installed (None).
+
+    Raises NotAStudyError if the folder has no plan; VersionError if the plan is of another format or damaged;
+    FolderError if the table has not been gathered; and UnfinishedError if not all cases have finished, except with
+    `unfinished=True`. `table["state"]` then says which cases are "finished", "failed", "unfinished" or "missing"."""
 
     def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False,
                  pandas: Optional[bool] = None):
@@ -56,28 +59,29 @@ class Study:
 
     @property
     def name(self) -> str:
-        """Name of the study, which may differ from its folder."""
+        """Name of the study, which may differ from that of its folder."""
         return self.plan["name"]
 
     @property
     def parameters(self) -> list[str]:
-        """Names of the columns with the varied parameters."""
+        """Names of the columns with the varied parameters: paths of the scene, and "scene" if there are several."""
         return list(self.summary["parameters"])
 
     @property
     def measures(self) -> list[str]:
-        """Names of the columns with measures."""
+        """Names of the columns with measures (docs/studies.md, "Measures")."""
         return [name for name in self.summary["columns"] if name not in ("case", "state", *self.parameters)]
 
     @property
     def table(self) -> Any:
-        """table.csv, one row per case, as a pandas frame or a structured array. A column has numbers if all its values
-        are numbers, otherwise texts; NaN means no value."""
+        """table.csv as it was last gathered, one row per case, as a pandas frame or a structured array. A column has
+        numbers if all its values are numbers, with NaN for no value, otherwise texts. Each access reads the file."""
         cells = read_cells(self.folder / TABLE)
         return table({name: values_of(name, of, cells.path) for name, of in cells.items()}, self._pandas)
 
     def run(self, case: int, **options: Any) -> Run:
-        """The run of a case, if the study keeps runs (`keep`) and the case is not packed. Options are those of Run."""
+        """The run of a case. Options are those of Run. Raises IndexError if there is no such case, and FolderError if
+        its run folder is not there: the case has not run, the study keeps only summaries, or the case is packed."""
         if not 0 <= case < self._study.count:
             raise IndexError(f"there is no case {case}; the study has 0 to {self._study.count - 1}")
         found = self._study.case_folder(case) / folders.RUN
@@ -90,6 +94,8 @@ class Study:
 
 
 def values_of(name, cells, path):
+    """A column of table.csv as an array: integers for "case", floats if all cells are numbers or empty, otherwise
+    texts. `path` is the file in messages."""
     if name == "case":
         return numpy.array(numbers(cells, path, name, absent=()), dtype=numpy.int64)
     if not all(cell == "" or is_number(cell) for cell in cells):

@@ -1,5 +1,5 @@
-"""A design of cases as a CSV file that other programs write: a column for each path of a scene's key, a row for each
-case."""
+"""A design of cases as a CSV file that other programs write. The first line has paths of keys of the scene, and each
+further line the values of one case. Empty lines are ignored."""
 import csv
 import json
 import math
@@ -7,11 +7,14 @@ import math
 from ..files import naming
 from .located_json import Problem, StudyError, shown
 
-LARGEST = 10**7  # largest number of rows
+# Largest number of cases of a design. A larger file is refused as a mistake; `polynya study plan` also refuses more
+# cases than this unless --most is given.
+LARGEST = 10**7
 
 
 def read_design(file):
-    """Values by path, as lists with one value per row. Raises StudyError with all problems."""
+    """Returns {path: values}, with one value per case. Raises StudyError with the first 20 problems, each with the line
+    of the file."""
     with naming(file), open(file, encoding="utf-8-sig", newline="") as opened:
         try:
             rows = list(csv.reader(opened, strict=True))
@@ -24,15 +27,18 @@ def read_design(file):
 
 
 class Design:
-    """Reads one design; each object is used once."""
+    """Reads the rows of one design and collects their problems; each object is used once. `file` is the name of the
+    design in messages."""
 
     def __init__(self, file):
         self.file, self.problems = file, []
 
     def report(self, line, path, message):
+        """Adds a problem at a line of the file, counted from 1; `path` is empty if it concerns no single column."""
         self.problems.append(Problem(self.file, path, message, line, 1))
 
     def read(self, paths, rows):
+        """Returns {path: values} for rows of (line, cells). Raises StudyError."""
         for path in {path for path in paths if paths.count(path) > 1 or not path}:
             self.report(1, path, "found a path twice or an empty one, allowed: each path once")
         if len(rows) > LARGEST:
@@ -49,7 +55,9 @@ class Design:
         return columns
 
     def value(self, number, path, text):
-        """A number, true or false, JSON, or otherwise the text itself."""
+        """Returns the value of a cell: that of a JSON text (a number, true, false, a list, an object), otherwise the
+        text itself. A whole number such as 1e3 or 2.0 becomes an int, because some keys of a scene accept only
+        those."""
         if not text:
             self.report(number, path, "found an empty value, allowed: a value in each row")
             return None

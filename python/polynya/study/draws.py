@@ -1,25 +1,33 @@
-"""Random draws of a study's parameters. Each value is the inverse of the parameter's distribution at a uniform number
-that depends only on the study's seed and the parameter's path. So a longer study begins with the draws of a shorter
-one, except with a Latin hypercube."""
+"""Random draws of a study's parameters (`draw` of a study's file). Each value is the inverse of the parameter's
+distribution at a uniform number. The uniform numbers depend only on the seed of the draws (`draw.seed`), the
+parameter's path and the number of the draw. So further parameters do not change the draws of the others, and more draws
+begin with the same values, except with a Latin hypercube.
+
+`kind` is a key of KINDS, and `given` the numbers of the distribution by name, with `least` and `most` if it is cut
+off."""
 import math
 import random
 import statistics
 
 from .located_json import shown
 
-STANDARD = statistics.NormalDist()
-KINDS = {  # numbers that each distribution needs
+STANDARD = statistics.NormalDist()  # mean 0, standard deviation 1
+KINDS = {  # numbers that each distribution needs, besides the optional ones of BOUNDS
     "uniform": ("low", "high"),
     "log_uniform": ("low", "high"),
     "normal": ("mean", "sd"),
     "log_normal": ("mean", "sd"),  # of the parameter itself, not of its logarithm
 }
-BOUNDS = ("least", "most")
-LEAST_P = 1e-16  # smallest probability of a draw, at both ends of the distribution
+BOUNDS = ("least", "most")  # numbers that cut a distribution off; the rest keeps its shape and has the probability 1
+# Distance of the probabilities from 0 and 1 at which normal and log-normal distributions are cut off [-], because their
+# inverse is infinite there. A draw is then at most some 8.2 standard deviations from the mean.
+LEAST_P = 1e-16
 
 
 def fault_of(kind, given):
-    """Returns what is wrong with the numbers of a distribution, or nothing."""
+    """Returns a message that says what is wrong with the numbers of a distribution, or None. Bounds must leave at least
+    1e-9 of the distribution, because
+    numbers resolve a smaller part too coarsely."""
     for name in KINDS[kind]:
         if not is_number(given.get(name)):
             found = shown(given[name]) if name in given else "nothing"
@@ -53,17 +61,20 @@ def fault_of(kind, given):
 
 
 def is_number(value):
+    """Returns True for a finite int or float; true and false are no numbers."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def log_parameters(given):
-    """Mean and standard deviation of the logarithm of a log-normal parameter with this mean and sd."""
+    """Mean and standard deviation of the logarithm of a log-normal parameter whose own mean and standard deviation are
+    given."""
     variance = math.log1p((given["sd"] / given["mean"]) ** 2)
     return math.log(given["mean"]) - variance / 2, math.sqrt(variance)
 
 
 def value_at(kind, given, p):
-    """The value below which the fraction p of the distribution lies."""
+    """The value below which the fraction p of the distribution lies, without its bounds: the inverse of
+    probability_below."""
     if kind == "uniform":
         return given["low"] + p * (given["high"] - given["low"])
     if kind == "log_uniform":
@@ -76,6 +87,7 @@ def value_at(kind, given, p):
 
 
 def probability_below(kind, given, value):
+    """Fraction of the distribution, without its bounds, that lies below a value, which may be infinite [-]."""
     if value in (-math.inf, math.inf):
         return float(value > 0)
     if kind == "uniform":
@@ -91,17 +103,18 @@ def probability_below(kind, given, value):
 
 
 def uniform_numbers(seed, path, count, method):
-    """`count` numbers in (0, 1) for one parameter."""
+    """`count` numbers in [0, 1) for one parameter. The method "independent" draws each alone; "latin_hypercube" draws
+    one from each of `count` equal parts, in random order, so that they cover the interval evenly."""
     dice = random.Random(f"{seed} {path}")
     if method == "independent":
         return [dice.random() for _ in range(count)]
-    strata = list(range(count))  # latin_hypercube: one number in each of `count` equal parts
+    strata = list(range(count))
     dice.shuffle(strata)
     return [(stratum + dice.random()) / count for stratum in strata]
 
 
 def draw(seed, path, kind, given, count, method):
-    """`count` values of one parameter from a valid distribution."""
+    """`count` values of the parameter `path`, in the order of the draws. The distribution must be valid (fault_of)."""
     low = probability_below(kind, given, given.get("least", -math.inf))
     high = probability_below(kind, given, given.get("most", math.inf))
     least, most = given.get("least", -math.inf), given.get("most", math.inf)

@@ -1,4 +1,5 @@
-"""`polynya study gather`: writes one table of all cases with one row each, and says which are missing."""
+"""`polynya study gather`: writes one table with one row per case, and says which cases are not finished and which
+commands repair them."""
 import csv
 import dataclasses
 import json
@@ -11,16 +12,18 @@ from . import archive
 from .case import DONE, FAILED, STOPPED, gist
 from .folder import counted, list_of_numbers, write_atomically
 
-TABLE, NETCDF, SUMMARY = "table.csv", "table.nc", "gather.json"
-STATES = ("failed", "unfinished", "missing")  # states other than finished
-MOST_SHOWN = 10  # number of failures that are printed
-LONGEST_SHOWN = 380  # longest command that is printed [characters]
-MOST_NETCDF = 1_000_000  # largest number of cases for which a netCDF file is written
+TABLE, NETCDF, SUMMARY = "table.csv", "table.nc", "gather.json"  # files in the study's folder
+STATES = ("failed", "unfinished", "missing")  # states of case.state_of other than "finished"
+MOST_SHOWN = 10  # number of failures whose messages are printed
+LONGEST_SHOWN = 380  # longest command that is printed [characters]; gather.json has the whole of a longer one
+# Largest number of cases for which a netCDF file is written, because the whole table must fit into the memory.
+MOST_NETCDF = 1_000_000
 
 
 def gather(study):
-    """Writes table.csv, table.nc if xarray and netCDF4 are installed, and gather.json. Returns an exit code, DONE if
-    every case is finished. It reads case by case; only cases that are not finished are kept in memory."""
+    """Writes table.csv, table.nc if xarray and netCDF4 are installed, and gather.json. Returns an exit code: DONE if
+    every case is finished, otherwise FAILED if any has failed, otherwise STOPPED. Cases are read one after the other:
+    table.csv needs little memory, but table.nc as much as the whole table."""
     measures = first_measures(study)
     rest = write_table(study, measures)
     if rest.unknown:  # some cases were run by another version
@@ -47,12 +50,12 @@ def gather(study):
     return DONE if summary["is_complete"] else FAILED if rest.by_state["failed"] else STOPPED
 
 
-# Members of gather.json.
+# Members of gather.json that read_summary checks, with their types.
 KINDS = {"cases": int, "is_complete": bool, "finished": int, "parameters": list, "columns": list}
 
 
 def read_summary(folder):
-    """Reads the state of the table from gather.json."""
+    """Reads gather.json of a study's folder, which describes its table. Raises FolderError if it is damaged."""
     summary = read_json(folder / SUMMARY)
     wrong = [key for key, kind in KINDS.items() if not isinstance(summary.get(key), kind)]
     names = [] if wrong else [*summary["parameters"], *summary["columns"]]
@@ -68,17 +71,18 @@ class Rest:
 
     by_state: dict = dataclasses.field(default_factory=lambda: {state: [] for state in STATES})  # numbers of cases
     messages: list = dataclasses.field(default_factory=list)  # (number, message) of the first failures
-    unknown: list = dataclasses.field(default_factory=list)
+    unknown: list = dataclasses.field(default_factory=list)  # names of measures that the table's header lacks
 
 
 def parameter_columns(study):
+    """Names of the table's columns of parameters: the varied paths, after "scene" if the study has several scenes."""
     many_scenes = len(study.plan["scenes"]) > 1
     return (["scene"] if many_scenes else []) + study.plan["varied"]
 
 
 def first_measures(study):
-    """Names of the measures of the first finished case. All cases of a study have the same, unless another version ran
-    them."""
+    """Names of the measures of the first finished case; empty if none is finished. All cases of a study have the same
+    measures, unless another version ran them."""
     for _, state, result in archive.all_states(study):
         if state == "finished":
             return list(result["measures"])
@@ -86,7 +90,8 @@ def first_measures(study):
 
 
 def write_table(study, measures):
-    """Writes a row for each case. A case without a result has only its parameters and its state."""
+    """Replaces table.csv by a table with these measures and a row for each case, and returns its Rest. A case that is
+    not finished has only its number, state and parameters."""
     rest, parameters, known = Rest(), parameter_columns(study), set(measures)
     draft = study.folder / (TABLE + ".tmp")
     with writing(draft, newline="") as file:
@@ -107,11 +112,12 @@ def write_table(study, measures):
 
 
 def cell(value):
+    """The value of a parameter as csv writes it: numbers and texts as they are, any other value as JSON."""
     return value if isinstance(value, (int, float, str)) and not isinstance(value, bool) else json.dumps(value)
 
 
 def commands(study, by_state):
-    """The command that repairs each kind of unfinished case."""
+    """{state: the command that runs the cases in that state}, for the states that have cases."""
     run = f"polynya study run {study.folder}"
     found = {}
     for state in ("missing", "unfinished"):
@@ -123,6 +129,7 @@ def commands(study, by_state):
 
 
 def report_rest(study, rest):
+    """Prints on stderr how many cases are not finished, the first failures, and the commands that repair them."""
     words = {
         "missing": "never started",
         "unfinished": "started and not at an end: to be continued from checkpoints",
@@ -140,8 +147,8 @@ def report_rest(study, rest):
 
 
 def write_netcdf(study, summary):
-    """Writes the table as a netCDF file with the dimension "case". Returns the reason if it cannot, otherwise
-    nothing."""
+    """Writes the table as a netCDF file with the dimension "case", columns of numbers as floats with NaN for no value,
+    and others as texts. Returns None, or the reason why there is no file; an older file is then removed, too."""
     path = study.folder / NETCDF
     path.unlink(missing_ok=True)
     if study.count > MOST_NETCDF:

@@ -1,5 +1,5 @@
-"""Runs many cases on this machine in worker processes of concurrent.futures, each with one run at a time, and shows a
-live table."""
+"""Runs many cases on this machine in worker processes of concurrent.futures, each with one run at a time, and shows
+their progress (`polynya study run`)."""
 import concurrent.futures
 import multiprocessing
 import os
@@ -11,11 +11,14 @@ from .folder import RUN
 from .stop import SIGNALS, Stop
 from .table import Counts, Display
 
-STUDY, STOP = None, None  # state of a worker process
+# State of a worker process, set once by begin_worker, so that it is not sent with each case: the study, and the file
+# descriptor that becomes readable when the command is to stop.
+STUDY, STOP = None, None
 
 
 def begin_worker(study, stop):
-    """Prepares a new worker process with the study and the reading end of the stop. Only the parent handles signals."""
+    """Prepares a new worker process. It keeps only the reading end of the stop, and ignores the signals by which the
+    parent is stopped."""
     global STUDY, STOP
     die_with_parent(signal.SIGKILL)  # otherwise it would wait for work forever; its run then stops with a checkpoint
     STUDY, STOP = study, stop.reader
@@ -26,6 +29,8 @@ def begin_worker(study, stop):
 
 
 def run_in_worker(number, keep):
+    """Runs a case in a worker process and returns (exit code, message); the message is empty if there is nothing to
+    say. `keep` is that of run_case."""
     try:
         return run_case(STUDY, number, STOP, keep)
     except OSError as error:  # after a full disk, the other cases continue or fail in the same way
@@ -33,12 +38,14 @@ def run_in_worker(number, keep):
 
 
 def exit_code(counts):
-    """Exit code of a command that runs many cases."""
+    """Exit code of a command that runs many cases: STOPPED if any was stopped, otherwise FAILED if any failed."""
     return STOPPED if counts.stopped else FAILED if counts.failed else DONE
 
 
 def run_cases(study, numbers, jobs, *, keep=None, retries_failed=False, is_quiet=False):
-    """Runs those of the cases that have not ended, `jobs` at a time. Returns an exit code."""
+    """Runs those of the cases that have not finished, `jobs` at a time, and returns an exit code. Failed cases run
+    again only with `retries_failed`. `keep` replaces the study's setting; None leaves it. A signal stops the runs with
+    checkpoints. Returns INPUT_OUTPUT if a worker process was killed."""
     counts, table, waiting = Counts(len(numbers)), Display(is_quiet), []
     for number, state in states_of(study, numbers, keep):
         counts.done += state == "finished"
@@ -63,8 +70,8 @@ def run_cases(study, numbers, jobs, *, keep=None, retries_failed=False, is_quiet
 
 
 def states_of(study, numbers, keep):
-    """States of some cases, including packed ones. A case without its run counts as missing if the run is to be
-    kept."""
+    """Yields (number, state) of some cases, including packed ones. A finished case whose run folder was removed counts
+    as missing with `keep` "all", so that it runs again. Archives are read once if the numbers are in order."""
     packed_chunk, packed = None, []
     for number in numbers:
         chunk = number // study.chunk_size
@@ -80,6 +87,8 @@ def states_of(study, numbers, keep):
 
 
 def run_waiting(study, waiting, jobs, keep, stop, counts, table):
+    """Runs the waiting cases, counts how they end and updates the table, until all have ended or the stop is raised.
+    Cases that have not begun by then are not counted. Raises BrokenProcessPool if a worker is killed."""
     context = multiprocessing.get_context("fork")
     with concurrent.futures.ProcessPoolExecutor(min(jobs, len(waiting)), context, begin_worker, (study, stop)) as pool:
         left, running = iter(waiting), {}
@@ -107,6 +116,7 @@ def run_waiting(study, waiting, jobs, keep, stop, counts, table):
 
 
 def count_end(counts, table, code, message):
+    """Counts a case by its exit code and shows its message."""
     if message:
         table.message(message)
     if code == DONE:

@@ -1,20 +1,26 @@
-"""Measures of one finished run, from its files (docs/run-folder.md). Written in plain Python, so that a job needs
-little memory."""
+"""Measures of one finished run, from its files (docs/run-folder.md): the columns of a study's table, which
+docs/studies.md explains, "Measures". Written in plain Python, so that a job needs little memory.
+
+`collect` are the settings of that name in the study's file. `columns` are the columns of forces.csv of one ship; each
+row covers the interval since the previous one, and speeds, poses and powers are those at its end."""
 import json
 import math
 import subprocess
 
 from .. import files
 
-LOADS = ("surge_N", "sway_N", "yaw_Nm")
-QUANTILES = (0.5, 0.9, 0.99)
-STOP_SPEED = 0.05  # a slower ship counts as stopped [m/s]
-TEXT_COLUMNS = {"ship"}
+LOADS = ("surge_N", "sway_N", "yaw_Nm")  # columns that are measured always, before those of collect.loads
+QUANTILES = (0.5, 0.9, 0.99)  # quantiles of loads if collect.quantiles gives none
+# Speed below which a ship counts as stopped if collect.stop_speed_m_per_s is not given [m/s]. A larger value gives more
+# stopped time, and more often the outcome "stuck".
+STOP_SPEED = 0.05
+TEXT_COLUMNS = {"ship"}  # columns of forces.csv that are not numbers
 
 
 def measure(run, collect, program):
-    """Measures of a finished run by name, None if there is no value. The same run gives the same measures on any
-    machine."""
+    """Measures of the finished run in the folder `run`, by name; None if there is no value. `program` is the program
+    polynya, for the channel. The same run gives the same measures on any machine. Raises ValueError for a ship or a
+    load that the run does not have, and FolderError for a damaged folder."""
     files.check_run(run)
     summary = files.read_json(run / "summary.json")
     counts = summary["counts"]
@@ -46,7 +52,7 @@ def measure(run, collect, program):
 
 
 def rows_by_ship(path):
-    """Columns of forces.csv by ship: name -> values."""
+    """Returns {ship: columns} of a forces.csv: the columns by name, with the rows of that ship or structure."""
     cells, rows = files.read_cells(path), {}
     for row, ship in enumerate(cells["ship"]):
         rows.setdefault(ship, []).append(row)
@@ -60,6 +66,8 @@ def rows_by_ship(path):
 
 
 def measures_of_ship(columns, collect):
+    """Measures of loads, motion, ramming and targets. Loads and motion count only after collect.from_s, and after the
+    ship has sailed collect.from_m."""
     start = max(collect.get("from_s", 0), time_to(columns, {"distance_m": collect.get("from_m", 0)}, math.inf))
     kept = [i for i, t in enumerate(columns["t_s"]) if t > start]
 
@@ -88,8 +96,8 @@ def measures_of_ship(columns, collect):
 
 
 def of_load(name, unit, values, sizes, levels):
-    """Mean and standard deviation of a load, and peak and quantiles of `sizes`, which are the resistance itself or the
-    magnitude of the load."""
+    """Mean and standard deviation of the values of a load, and peak and quantiles of `sizes`, which are the resistance
+    itself or the magnitudes of the load. `levels` are the probabilities of the quantiles. Empty without values."""
     if not values:
         return {}
     mean = math.fsum(values) / len(values)
@@ -105,7 +113,7 @@ def of_load(name, unit, values, sizes, levels):
 
 
 def quantile(ordered, level):
-    """Quantile with linear interpolation between the sorted values, as in numpy."""
+    """Quantile with the probability `level`, interpolated linearly between sorted values, as in numpy."""
     at = level * (len(ordered) - 1)
     low = int(at)
     high = min(low + 1, len(ordered) - 1)
@@ -113,6 +121,9 @@ def quantile(ordered, level):
 
 
 def of_motion(columns, kept, collect):
+    """Measures of speed, distance, stops and energy over the rows `kept`, and the final pose. A stop begins when the
+    speed falls below the stop speed, after it was above twice that, so that a speed that varies about the limit is one
+    stop."""
     times, speeds = columns["t_s"], columns["speed_m_per_s"]
     steps = [times[0]] + [b - a for a, b in zip(times, times[1:])]
     span = math.fsum(steps[i] for i in kept)
@@ -140,8 +151,9 @@ def of_motion(columns, kept, collect):
 
 
 def of_rams(columns):
-    """Measures of a ramming ship: the number of charges after the first, and means per charge, from its start to the
-    start of the next: distance gained, duration, and largest speed ahead. A charge starts when `rams` increases."""
+    """Measures of a ramming ship: the number of charges after the first and the distance gained in all; then means per
+    charge, from its start to the start of the next: distance gained, duration, and largest speed ahead. A charge starts
+    when `rams` increases. Fewer than two such starts give no means, and a run without that column gives nothing."""
     if "rams" not in columns:
         return {}
     rams, gained, times = columns["rams"], columns["gained_m"], columns["t_s"]
@@ -159,12 +171,15 @@ def of_rams(columns):
 
 
 def forward_speed(columns, i):
+    """Velocity over ground along the heading in row i [m/s]; negative astern."""
     heading = math.radians(columns["heading_deg"][i])
     return columns["vx_m_per_s"][i] * math.cos(heading) + columns["vy_m_per_s"][i] * math.sin(heading)
 
 
 def time_to(columns, target, never=None):
-    """Time at which the ship first reaches the target [s], or `never` if it does not."""
+    """Time of the first row in which the ship has reached the target [s], or `never`. A target is one of distance_m
+    (sailed over ground), point_m with within_m, x_m and y_m. A line x_m or y_m is reached from either side: when the
+    ship is on another side of it than in the first row."""
     times, xs, ys = columns["t_s"], columns["x_m"], columns["y_m"]
     if "distance_m" in target:
         gone, before = 0.0, 0.0
@@ -184,13 +199,16 @@ def time_to(columns, target, never=None):
 
 
 def outcome(found, columns, collect):
-    """The outcome in one word: stuck (the ship does not move at the end), split, bent, or pushed."""
+    """The outcome of the run in one word: "stuck" if the ship is slower than the stop speed in the last row, otherwise
+    "split" if a floe split, "bent" if a cusp broke by bending, or "pushed" if neither happened. pictures.OUTCOMES has
+    the same words."""
     if columns["speed_m_per_s"][-1] < collect.get("stop_speed_m_per_s", STOP_SPEED):
         return "stuck"
     return "split" if found["splits"] else "bent" if found["bends"] else "pushed"
 
 
 def fractures_of(path, ship):
+    """Numbers of cusps and splits that a ship or structure caused, from events.ndjson."""
     kinds = {"bend": 0, "split": 0}
     for event in files.read_json_lines(path):
         if event["kind"] in kinds and event["ship"] == ship:
@@ -199,7 +217,8 @@ def fractures_of(path, ship):
 
 
 def channel_width(run, ship, program):
-    """Mean width of the channel behind the ship [m], measured by `polynya channel`; None if there is none."""
+    """Mean width of the channel behind the ship [m], measured by `polynya channel`; None if there is no channel, or if
+    that command fails."""
     printed = subprocess.run(
         [program, "channel", run, "--json", "--ship", ship], capture_output=True, text=True, check=False
     )

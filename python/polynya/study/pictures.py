@@ -1,4 +1,5 @@
-"""Pictures of a study's page, drawn with matplotlib as SVG and PNG."""
+"""Pictures of a study's page, drawn with matplotlib as SVG and PNG: exceedance of peaks, means, and a map of outcomes.
+`sample` is a sample.Sample, and `folder` that of the pictures."""
 import math
 
 import numpy
@@ -10,7 +11,8 @@ from ..figures import page
 from .sample import fits_of, refuted
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999933")  # [Okabe2008]
-GREY = "#bbbbbb"  # colour of further groups
+GREY = "#bbbbbb"  # colour of groups beyond the number of COLOURS, which have no fits and no legend entry of their own
+# Colours of the outcomes of measures.outcome. If several are most frequent, the first one of them is drawn.
 OUTCOMES = {"pushed": "#56b4e9", "bent": "#009e73", "split": "#d55e00", "stuck": "#000000"}
 PAPER = (
     0.999,
@@ -27,20 +29,23 @@ PAPER = (
     0.005,
     0.002,
     0.001,
-)  # probabilities of exceedance at ticks
+)  # probabilities of exceedance at ticks of the probability paper
+# Unit of a measure's name -> (size of the drawn unit in that unit, name of the drawn unit). Others are drawn as they
+# are.
 SCALES = {"N": (1e6, "MN"), "Nm": (1e6, "MN m"), "J": (1e6, "MJ"), "m": (1, "m"), "s": (1, "s")}
 
 
 def save(figure, folder, name):
-    """Writes name.svg and name.png; returns the name of the SVG."""
+    """Writes name.svg and name.png into the folder, which it makes. Returns the name of the SVG."""
     folder.mkdir(exist_ok=True)
     list(page.save(figure, str(folder / name), ("svg", "png"), 200))
     return name + ".svg"
 
 
 def label_of(measure, is_parameter=False):
-    """("resistance peak [MN]", factor) for the name of a measure with its unit. For the path of a parameter it is the
-    last part, in the unit of the scene."""
+    """Returns a label such as "resistance peak [MN]" for the name of a measure with its unit, and the factor by which
+    values are multiplied to be in the label's unit. For the path of a parameter the label is its last part in the
+    unit of the scene, and the factor 1."""
     name, _, index = measure.rsplit(".", 1)[-1].partition("[")
     axis = {"0]": " x", "1]": " y"}.get(index, f" {index.rstrip(']')}" if index else "")
     for unit in sorted(("m_per_s", "deg", "Pa", *SCALES), key=len, reverse=True):
@@ -52,8 +57,8 @@ def label_of(measure, is_parameter=False):
 
 
 def in_words(value, digits=6):
-    """A number with this number of significant digits; by default whole numbers are complete. An exponent is used only
-    below 1e-4 and from 1e12 on. Other values stay as they are."""
+    """A number as text with that many significant digits; with the default, whole numbers have all their digits. An
+    exponent is used only below 1e-4 and from 1e12 on. Other values are converted by str()."""
     if not isinstance(value, (int, float)) or not math.isfinite(value):
         return str(value).replace("inf", "∞")
     if value and not 1e-4 <= abs(value) < 1e12:
@@ -64,31 +69,34 @@ def in_words(value, digits=6):
 
 
 def group_label(name, value):
-    """Label of a group: "thickness 0.4 m", "scene fig4a"."""
+    """Label of the group in which the parameter `name` has a value: "thickness 0.4 m", "scene fig4a"."""
     label, _ = label_of(name, is_parameter=True)
     words, _, unit = label.partition(" [")
     return f"{words} {in_words(value)} {unit.rstrip(']')}".rstrip()
 
 
 def lines_of(sample, group_by):
-    """(value, cases, colour) of the groups. Groups beyond the number of colours are grey."""
+    """[(value, cases, colour)] of the groups by a parameter, or of all cases if it is None. `cases` is a mask. Groups
+    beyond the number of colours are grey."""
     groups = sample.groups(group_by)
     return [(value, cases, COLOURS[k] if k < len(COLOURS) else GREY) for k, (value, cases) in enumerate(groups)]
 
 
 def more(lines):
-    """Legend entry of the grey groups."""
+    """List with the legend entry of the grey groups; empty if there are none."""
     rest = sum(colour == GREY for _, _, colour in lines)
     return [Line2D([], [], color=GREY, label=f"{rest} more groups")] if rest else []
 
 
 def reduced(p):
-    """Gumbel's reduced variate for a probability of exceedance. His distribution is a straight line over it."""
+    """Gumbel's reduced variate −ln(−ln(1 − p)) for a probability of exceedance p. As the y coordinate, it makes his
+    distribution a straight line."""
     return -numpy.log(-numpy.log1p(-numpy.asarray(p)))
 
 
 def draw_fits(axes, values, factor, lowest, colour):
-    """Draws lines of both fits, dotted if they are refuted. Returns texts for the legend, each with its line style."""
+    """Draws lines of both fits to the values, dotted if they are refuted, down to less than the probability `lowest`.
+    `factor` converts to the label's unit. Returns {text for the legend: line style}; a fit that failed is left out."""
     found = {}
     for name, dash in (("gumbel", "-"), ("weibull", "--")):
         fitted = fits_of(values)[name]
@@ -101,7 +109,8 @@ def draw_fits(axes, values, factor, lowest, colour):
 
 
 def exceedance(sample, measure, group_by, folder):
-    """Draws peaks on Gumbel's probability paper, on which his distribution is a straight line, with both fits."""
+    """Draws the values of a measure and both fits on Gumbel's probability paper, on which his distribution is a
+    straight line, with a colour for each group. Returns the name of the SVG."""
     label, factor = label_of(measure)
     lowest, handles, dashes = 0.5, [], {}
     lines = lines_of(sample, group_by)
@@ -130,7 +139,8 @@ def exceedance(sample, measure, group_by, folder):
 
 
 def means(sample, measure, against, group_by, folder):
-    """Draws means with 95 % intervals over a parameter, with a line for each group."""
+    """Draws means of a measure with 95 % intervals over the parameter `against`, with a line for each group. Returns
+    the name of the SVG. A single case is a point without an interval."""
     label, factor = label_of(measure)
     lines, handles = lines_of(sample, None if group_by == against else group_by), []
     with page.Sheet(page.Page(), f"Mean of the {label.partition(' [')[0]}", "with its 95 % interval") as sheet:
@@ -160,7 +170,8 @@ def means(sample, measure, against, group_by, folder):
 
 
 def outcome_map(sample, over, folder):
-    """Draws the most frequent outcome over two parameters, with its fraction of the cell's cases if it is not all."""
+    """Draws the most frequent outcome over two parameters, the one with more values along x, with its fraction of the
+    cell's cases if it is not all. Returns the name of the SVG."""
     xs, ys = sample.values_of(over[0]), sample.values_of(over[1])
     if len(xs) < len(ys):
         over, xs, ys = over[::-1], ys, xs
@@ -184,11 +195,13 @@ def outcome_map(sample, over, folder):
         return save(sheet.finish(height, marks), folder, "outcomes")
 
 
+# Caption of the map of outcomes.
 CAPTION = "Most frequent outcome; paler, and in percent, where it is not that of all"
 
 
 def draw_cell(axes, i, k, outcomes, is_numbered):
-    """Draws the most frequent outcome of a cell's cases."""
+    """Draws the most frequent outcome of the cases in column i and row k of the map: paler the fewer cases have it,
+    with its percentage if `is_numbered` and if not all have it."""
     word = max(OUTCOMES, key=outcomes.count)
     share = outcomes.count(word) / len(outcomes)
     axes.add_patch(Rectangle((i - 0.5, k - 0.5), 1, 1, color=OUTCOMES[word], alpha=0.25 + 0.75 * share, lw=0))

@@ -1,4 +1,8 @@
-"""`polynya study plan`: makes a folder of numbered cases from a study's file, after checking every case."""
+"""`polynya study plan`: makes a folder of numbered cases from a study's file, after checking every case.
+docs/studies.md explains the file, and folder.py lists the files of the folder.
+
+In this module `lines` are the lines of cases.ndjson, one per case, `old` is the plan that the folder has already, or
+None, and `new` the plan that is to be written."""
 import concurrent.futures
 import hashlib
 import json
@@ -19,12 +23,15 @@ from .expand import count_cases, expand, repeats_by_seed, varied_paths
 from .folder import CASES, FORMAT, INDEX, PLAN, Study, list_of_numbers, read_plan, write_atomically, write_plan
 from .located_json import Problem, StudyError, read_json
 
-MOST_TASKS = 1000  # largest number of tasks of a job array; Slurm's MaxArraySize is 1001 by default
-MOST_SHOWN = 20  # number of problems that are printed
+# Largest number of chunks for which a chunk's size is chosen, because each chunk is one task of a job array. Slurm
+# allows MaxArraySize − 1 tasks, by default 1000.
+MOST_TASKS = 1000
+MOST_SHOWN = 20  # number of different problems of cases that are printed; the others are counted
 
 
 def plan_study(file, options):
-    """Plans a study, or finds that it is planned already. Returns it."""
+    """Plans the study in `file`, or finds that it is planned already. `options` are those of `polynya study plan`.
+    Returns the Study. If it raises StudyError, no plan was written, and a folder that was not there is not there."""
     if pathlib.Path(file).is_dir():
         raise StudyError(f"{file}: a folder; plan takes the study's JSON file", 2)
     definition = read_definition(file, options.design)
@@ -53,8 +60,8 @@ def plan_study(file, options):
 
 
 def write_study(definition, folder, draft, lines, old, expanded, options):
-    """Checks the cases and writes the folder; does nothing if the same plan is there. Scenes are copied to a draft
-    folder first, so that a refused plan changes nothing."""
+    """Checks the cases, writes the folder and makes the trial; does nothing if the same plan is there. Scenes are
+    copied to the folder `draft` first, so that a refused plan replaces nothing (but see refuse_other_cases)."""
     count, text = len(lines), "".join(lines)
     scenes = copy_scenes(definition, draft, lines)
     new = {
@@ -93,24 +100,28 @@ def write_study(definition, folder, draft, lines, old, expanded, options):
 
 
 def plan_in(folder):
-    """The existing plan of a folder, or none."""
+    """The existing plan of a folder, or None. Raises StudyError if it is damaged."""
     return read_plan(folder) if (folder / PLAN).exists() else None
 
 
 def is_same(old, new, folder, text):
+    """Returns True if the old plan has the same contents and cases as the new one. The place of the study's file, the
+    estimate of the trial and the checksum may differ."""
     same = {"source": None, "estimate": None, "crc32": None}
     return {**old, **same} == {**new, **same} and read_text(folder / CASES) == text
 
 
 def what_differs(plan, members):
-    """Says which members of a plan differ: "other set, collect"; "" if none."""
+    """Says which of the given members differ from those of a plan: "other set, collect"; empty if none does."""
     names = [key for key, value in members.items() if plan.get(key) != value]
     return f"other {', '.join(names)}" if names else ""
 
 
 def refuse_other_cases(old, new, folder, text):
-    """Refuses a changed plan if cases have ended by the old one; only further cases may be added. If none has ended,
-    cases that were begun by the old plan are removed."""
+    """Raises StudyError if cases have ended by the old plan and the new one would change cases. Allowed are further
+    cases after the old ones (more repetitions or draws), and other values of keep and report. If no case has ended,
+    any change is allowed, and cases that were begun by the old plan are removed, even if the check of the new cases
+    then fails."""
     if old is None:
         return
     what = what_differs(old, {key: new[key] for key in ("set", "scenes", "inputs", "collect", "chunk", "archive")})
@@ -127,8 +138,9 @@ def refuse_other_cases(old, new, folder, text):
 
 
 def refuse_changed_file(file, study):
-    """Refuses a plan that was made before its study's file changed what the cases set or collect. Only a file that is
-    newer than the plan is compared. The number of repetitions may differ: options of `plan` change it."""
+    """Raises StudyError if a study's file now sets or collects something else than the plan that was made from it. Only
+    a file that is newer than the plan is compared. The number of repetitions may differ, because --repetitions of
+    `plan` changes it."""
     if os.path.getmtime(file) <= os.path.getmtime(study.folder / PLAN):
         return
     definition = read_definition(file, None)
@@ -146,7 +158,9 @@ def refuse_changed_file(file, study):
 
 
 def chunk_size(given, old, count):
-    """Number of cases per chunk. By default it is chosen so that one job array can run all chunks."""
+    """Number of cases per chunk: that of --chunk, otherwise that of the old plan if it still gives at most MOST_TASKS
+    chunks, otherwise the smallest of 1, 2, 5, 10, 20, … that does. A larger number starts Python less often; a task
+    then takes longer."""
     if given:
         return given
     if old is not None and -(-count // old["chunk"]) <= MOST_TASKS:
@@ -162,8 +176,9 @@ def chunk_size(given, old, count):
 
 
 def copy_scenes(definition, folder, lines):
-    """Copies the scenes, and the floe files that they or the cases name, because a cluster gets only the study's
-    folder."""
+    """Copies the scenes, and the floe files that they or the cases name, into `folder`, because a cluster gets only the
+    study's folder. Returns the names of the copies, relative to `folder`. Raises StudyError if a scene is not JSON or
+    cannot be read."""
     names = []
     for i, name in enumerate(definition.scenes):
         source = definition.folder / name
@@ -186,6 +201,8 @@ def copy_scenes(definition, folder, lines):
 
 
 def floe_files(scene, definition, lines):
+    """Names of the floe files that a scene or a case of the study names (keys `file`), sorted. Absolute names and names
+    with ".." are left out: these files are not copied."""
     groups = scene.get("floes") if isinstance(scene, dict) else []
     groups = groups if isinstance(groups, list) else []
     files = {group["file"] for group in groups if isinstance(group, dict) and isinstance(group.get("file"), str)}
@@ -200,6 +217,8 @@ def floe_files(scene, definition, lines):
 
 
 def digest_of(folder, scenes):
+    """SHA-256 of the names and contents of the copied scenes and floe files, in hexadecimal digits. The plan keeps it,
+    so that a changed scene is noticed when the study is planned again."""
     digest = hashlib.sha256()
     for scene in scenes:
         for path in sorted((folder / scene).parent.rglob("*")):
@@ -209,6 +228,8 @@ def digest_of(folder, scenes):
 
 
 def write_cases(folder, lines):
+    """Writes cases.ndjson, and cases.index with the start of each line, by which a case is found without reading the
+    others."""
     offsets, at = [], 0
     for line in lines:
         offsets.append(struct.pack("<Q", at))
@@ -221,12 +242,15 @@ def write_cases(folder, lines):
 
 
 def is_seed(path):
+    """Returns True for the path of the scene's seed or of a field's seed. Other values of it give other random ice, but
+    no other problems of the scene."""
     return path == "seed" or path.endswith(".field.seed")
 
 
 def check_cases(definition, folder, scenes, lines, options):
     """Checks every case as `polynya run` would. Of cases that differ only in their seeds, the first is checked fully,
-    and of the others the seeds. Returns the number of full checks. Raises StudyError with all problems."""
+    and of the others only that the seeds are allowed, unless --check-seeds is given. Returns the number of full checks.
+    Raises StudyError with the problems (in_words)."""
     tasks = [{} for _ in scenes]  # the text of a case -> the numbers of the cases with that text
     problems = {}
     for number, line in enumerate(lines):
@@ -254,7 +278,9 @@ def check_cases(definition, folder, scenes, lines, options):
 
 
 def check_scene(scene, name, groups, problems):
-    """Checks a scene's cases with `polynya validate --cases` on all processors. `name` names the scene in messages."""
+    """Checks a scene's cases with `polynya validate --cases`, in as many processes as there are processors, but at
+    least 50 cases each. `name` names the scene in messages, and `groups` has (text of the case, numbers of the cases
+    that it stands for). Adds to `problems`: {(path, message): numbers of the cases}."""
     parts = max(1, min(os.cpu_count() or 1, len(groups) // 50))
     with tempfile.TemporaryDirectory() as work, concurrent.futures.ThreadPoolExecutor(parts) as pool:
 
@@ -293,7 +319,8 @@ def check_scene(scene, name, groups, problems):
 
 
 def in_words(definition, problems, count):
-    """Lists each problem once, at the place in the study that sets its key, with the cases that have it."""
+    """Lists each of the first MOST_SHOWN problems once, at the place in the study that sets its key, with the cases
+    that have it. `count` is the number of all cases. A last line counts the other problems."""
     words = []
     for (path, message), numbers in list(problems.items())[:MOST_SHOWN]:
         numbers = sorted(numbers)
@@ -314,7 +341,8 @@ def in_words(definition, problems, count):
 
 
 def place_of(definition, path):
-    """Place at which the study sets a key of the scene, a part of it, or an object that contains it."""
+    """Place in the study's file, as a path of keys, at which it sets the scene's key `path`, a part of it, or an object
+    that contains it; ["scene"] if it sets none of these, because the problem is then in the scene itself."""
     blocks = [
         (["set"], definition.fixed),
         (["grid"], definition.grid),

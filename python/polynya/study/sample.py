@@ -1,4 +1,5 @@
-"""A gathered study as columns of its finished cases, grouped by parameters. Needs numpy."""
+"""A gathered study as columns of its finished cases, for the statistics and pictures of `polynya study report`. Needs
+numpy and scipy."""
 import dataclasses
 import functools
 
@@ -9,19 +10,24 @@ from ..errors import FolderError
 from ..naming import names_of
 from .gather import TABLE, read_summary
 
+# Largest number of values that a parameter may have for cases to be grouped by it if the study does not name one
+# (`report.group_by`); pictures have as many colours.
 MOST_GROUPS = 8
-LEAST_FIT = 10  # least number of cases in a group for a fit
-QUANTILE = 0.99
-REFUTED = 0.05  # a fit with a smaller p value is refuted
+# Least number of cases in a group for a fit of its peaks. With fewer, its parameters and its tests say little.
+LEAST_FIT = 10
+QUANTILE = 0.99  # probability of the quantile in the columns q99 of the statistics, which name it
+# A fit is refuted if the p value of one of its tests is smaller [-]. Its value that is rarely exceeded is then struck
+# through on the page. A larger limit also refutes more fits that are right.
+REFUTED = 0.05
 
 
 @dataclasses.dataclass
 class Sample:
-    """Columns of the finished cases by name: numbers if all values are numbers, otherwise texts; NaN means no value."""
+    """The finished cases of a study."""
 
-    columns: dict
-    parameters: list
-    summary: dict
+    columns: dict  #: name -> array: numbers, with NaN for no value, if all values are numbers, otherwise texts
+    parameters: list  #: names of the columns of the varied parameters
+    summary: dict  #: contents of gather.json
     meanings: dict = dataclasses.field(default_factory=dict)  #: parameter -> {short name: value in the table}
 
     @property
@@ -29,11 +35,11 @@ class Sample:
         return len(self.columns["case"])
 
     def values_of(self, name):
-        """The different values of a parameter, in order."""
+        """The different values of a parameter, sorted."""
         return sorted(set(self.columns[name].tolist()))
 
     def varied(self):
-        """Parameters with more than one value, without seeds."""
+        """Parameters with more than one value, without the scene's seed."""
         return [
             name
             for name in self.parameters
@@ -41,20 +47,25 @@ class Sample:
         ]
 
     def groups(self, by):
-        """(value, cases) for each value of a parameter; all cases if `by` is empty."""
+        """[(value, cases)] for each value of the parameter `by`, where `cases` is a mask of the cases with that value.
+        If `by` is None, one group with the value None and all cases."""
         if by is None:
             return [(None, numpy.ones(self.size, dtype=bool))]
         return [(value, self.columns[by] == value) for value in self.values_of(by)]
 
     def numbers(self, name, cases):
+        """Values of a column of numbers in the cases of a mask, without those that are missing."""
         values = self.columns[name][cases]
         return values[numpy.isfinite(values)]
 
     def has_numbers(self, name):
+        """Returns True if there is a column with this name and it has numbers."""
         return name in self.columns and self.columns[name].dtype.kind == "f"
 
 
 def read_sample(study):
+    """Reads the Sample of a gathered study; it has only an empty column "case" if no case is finished. Parameters that
+    are texts or objects get short names. Raises FolderError if table.csv is damaged."""
     cells, summary = files.read_cells(study.folder / TABLE), read_summary(study.folder)
     kept = [row for row, state in enumerate(cells["state"]) if state == "finished"]
     columns = files.Columns({name: column([of[row] for row in kept]) for name, of in cells.items()}, cells.path)
@@ -71,13 +82,15 @@ def read_sample(study):
 
 
 def named(values):
-    """A column of texts in which short names replace objects and long texts, and {short name: the value}."""
+    """Replaces objects and long texts of a column by short names (names_of). Returns the column, and {short name: the
+    value} for those that were replaced."""
     names = names_of(values.tolist())
     return (numpy.array([names[value] for value in values.tolist()]),
             {name: value for value, name in names.items() if name != value})
 
 
 def column(values):
+    """Converts cells of a table to an array: numbers if all are numbers or empty (NaN), otherwise texts."""
     if all(value == "" or files.is_number(value) for value in values):
         return numpy.array([float(value) if value else numpy.nan for value in values])
     return numpy.array(values)
@@ -87,15 +100,18 @@ def column(values):
 class Choices:
     """Settings of a report, from the study's "report" or, if they are missing there, from the parameters that vary."""
 
-    against: str | None
-    means: list
-    exceedance: list
-    group_by: str | None
-    map: tuple | None
-    channels: int
+    against: str | None  #: parameter along the x axis of means; None: no picture of means
+    means: list  #: measures whose means are drawn
+    exceedance: list  #: measures whose exceedance is drawn, and to which distributions are fitted
+    group_by: str | None  #: parameter of whose values each has a line in the pictures; None: all cases are one group
+    map: tuple | None  #: two parameters, over which the outcomes are drawn; None: no map
+    channels: int  #: number of cases whose channel is drawn
 
 
 def choices_of(study, sample):
+    """The Choices of a study. By default means are drawn over the first varied parameter that is a number, groups are
+    formed by the first one with at most MOST_GROUPS values, and the map is over the first two with at most 60 values.
+    Names that the table does not have are left out."""
     given, varied = study.plan["report"], sample.varied()
     numeric = [name for name in varied if sample.has_numbers(name)]
     against = given.get("against", numeric[0] if numeric else None)
@@ -115,18 +131,22 @@ def choices_of(study, sample):
 
 
 def refuted(fit):
-    """Reason why a fit gives no rarely exceeded value; empty if it gives one."""
+    """Says that a Fit is refuted, with the smaller p value of its two tests; empty if it is not."""
     p = min(fit.ks_p, fit.ad_p)
     return f"refuted: p {p:.2g}" if p < REFUTED else ""
 
 
 def fits_of(values, seed=0):
-    """Gumbel's and Weibull's distributions fitted to a group's peaks, or the reason why there are none."""
+    """{"gumbel": …, "weibull": …} of the distributions fitted to a group's peaks: each a Fit, or a text with the reason
+    why there is none. `seed` selects the bootstrap samples."""
     return fits_of_bytes(numpy.asarray(values, dtype=float).tobytes(), seed)
 
 
-@functools.lru_cache(maxsize=256)  # pictures and tables use the same fits
+# Pictures and tables use the same fits, each of which needs a bootstrap. The values are given as bytes, because the
+# keys of the cache must be hashable.
+@functools.lru_cache(maxsize=256)
 def fits_of_bytes(data, seed):
+    """The result of fits_of for the bytes of an array of floats."""
     values, found = numpy.frombuffer(data), {}
     for name in statistics.NAMES:
         try:

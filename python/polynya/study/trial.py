@@ -1,4 +1,5 @@
-"""Estimates time and space of a study from a trial of its first case."""
+"""Estimates the wall time, disk space and memory of a study from a trial of its first case. All cases are assumed to
+need as much as the first one."""
 import os
 import resource
 import sys
@@ -11,8 +12,9 @@ from .folder import RUN, write_plan
 
 
 def estimate(study, seconds, jobs):
-    """Runs the first case for at most `seconds` and prints an estimate for all cases. The case keeps its result or its
-    checkpoint. The estimate is stored in the plan."""
+    """Runs the first case for at most `seconds` of wall time, prints an estimate for all cases with `jobs` at a time,
+    and stores that of one case in the plan. The case keeps its result or its checkpoint, so the work is not lost. There
+    is no trial if the first case has been started before, and no estimate if it fails; neither is an error."""
     if state_of(study.case_folder(0))[0] != "missing":
         return
     reader, writer = os.pipe()
@@ -53,6 +55,8 @@ def estimate(study, seconds, jobs):
 
 
 def part_done(folder, state):
+    """Fraction of the simulated time of the case in `folder` that has been computed [-]. Time and space are
+    extrapolated by it, as if every simulated second cost the same."""
     if state == "finished":
         return 1.0
     done = summary_of(folder / RUN).get("sim_time_s", 0)
@@ -60,7 +64,8 @@ def part_done(folder, state):
 
 
 def size_of(folder):
-    """Space on the disk [bytes]."""
+    """Space of a folder on the disk, with whole blocks [bytes]. Checkpoints do not count, because a finished case has
+    none."""
     return sum(
         entry.stat().st_blocks * 512
         for entry in [folder, *folder.rglob("*")]
@@ -69,6 +74,7 @@ def size_of(folder):
 
 
 def in_time(seconds):
+    """A duration in the largest unit of which it has at least two: 110 s, 3.5 min."""
     for unit, size in (("days", 86400), ("h", 3600), ("min", 60)):
         if seconds >= 2 * size:
             return f"{seconds / size:.3g} {unit}"
@@ -76,6 +82,7 @@ def in_time(seconds):
 
 
 def in_bytes(count):
+    """A number of bytes with a decimal prefix: 1 kB is 1000 B."""
     for unit in ("B", "kB", "MB", "GB", "TB"):
         if count < 1000 or unit == "TB":
             return f"{count:.3g} {unit}"
