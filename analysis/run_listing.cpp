@@ -251,7 +251,8 @@ std::string lineage_tree(const io::Run& run, FloeId floe) {
     text += fmt::format("floe {}  {:.6f} m2{}\n", id, at.birth.area,
                         at.birth.parent == simulation::kNoFloe ? "  as in the scene" : "");
     if (id == floe) {
-      text += at.death_event ? fmt::format("broke at {:.6g} s\n", at.died) : "lives to the end\n";
+      text += at.death_event ? fmt::format("ended at {}\n", described(run, run.events[*at.death_event]))
+                             : "lives to the end\n";
       continue;
     }
     if (!at.death_event) continue;

@@ -195,7 +195,7 @@ class FloeImport {
       note.refused = "its overlap was not cut off: " + trimmed.error->detail;
       ++outcome_.totals.refused;
     }
-    if (note.yields.empty()) ++outcome_.totals.trimmed;
+    if (note.yields.empty() && !trimmed.yields.empty() && !trimmed.error) ++outcome_.totals.trimmed;
     for (const std::size_t other : trimmed.yields) note.yields.push_back(sources[other]);
     note.trimmed += geometry::exact_balance(Sum{&whole}, sum_of(trimmed.pieces), {});
   }

@@ -93,9 +93,9 @@ void criterion(Line& line, Is<simulation::TiltCriterion> auto& c, bool) {
 template <class Line>
 void criterion(Line& line, Is<simulation::ResurfaceCriterion> auto& c, bool comes_up) {
   line("kind",
-       std::string_view(!comes_up    ? "waited >= longest wait"
-                        : c.path < 0 ? "the ship backed off it"
-                                     : "path >= least path"),
+       std::string_view(comes_up                    ? c.path < 0 ? "the ship backed off it" : "path >= least path"
+                        : c.waited < c.longest_wait ? "no piece surfaces in this scene"
+                                                    : "waited >= longest wait"),
        kRule);
   line("path_m", c.path,
        {"m", "distance that the ship has moved over the piece since it went under", "ship came over it"});

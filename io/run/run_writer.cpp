@@ -196,7 +196,7 @@ void RunWriter::record(simulation::Journal& journal) {
                    ice ? parents_[static_cast<std::size_t>(ice->floe)] : simulation::kNoFloe);
     });
     if (const auto* cut = std::get_if<simulation::RejectedCut>(&event.what))
-      if (auto written = write_rejected_cut(folder(), event.time, *cut); !written) status_ = std::move(written);
+      if (auto written = write_rejected_cut(folder(), event.time, *cut); status_) status_ = std::move(written);
   }
   for (const simulation::HullSample& sample : journal.samples) {
     append(kForces, [&](std::string& line) { append_forces_row(line, sample, scene_->scene); });

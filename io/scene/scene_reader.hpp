@@ -20,8 +20,7 @@ namespace polynya::io {
 
 /// Longest scene that is read [bytes]. It also limits the resolved text with the floes of all files, because that is
 /// the scene.json of a run, which must be read back. It is twice kLongestFloesFile, so that any single floe file fits.
-/// At present the parser refuses a scene of more than kLongestText (json_parser.hpp), which is half of this.
-inline constexpr std::size_t kLongestScene = std::size_t{512} << 20;
+inline constexpr std::size_t kLongestScene = kLongestText;
 /// Longest floe file that is read [bytes]. It limits the memory that a wrong file can take.
 inline constexpr std::size_t kLongestFloesFile = std::size_t{256} << 20;
 /// Largest number of floes of a scene; a scene with more is refused. Making the floes of such a scene takes half a

@@ -166,7 +166,8 @@ Result<std::vector<double>> read_numbers(std::string_view text, std::size_t leas
   std::vector<double> numbers;
   for (const JsonValue& item : list.root.items()) numbers.push_back(item.number());
   if (numbers.size() < least || numbers.size() > most)
-    return fail(fmt::format("{}, expected {}", counted(numbers.size(), "number"), least));
+    return fail(fmt::format("{}, expected {}", counted(numbers.size(), "number"),
+                            least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most)));
   return numbers;
 }
 

@@ -113,7 +113,7 @@ const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonV
 inline constexpr std::size_t kDeepestNesting = 64;
 /// Longest text that is read [bytes]. It bounds the memory that a wrong file can take, and keeps positions within 32
 /// bits. No reader of JSON can accept longer texts, whatever its own limit is.
-inline constexpr std::size_t kLongestText = std::size_t{256} << 20;
+inline constexpr std::size_t kLongestText = std::size_t{512} << 20;
 
 /// A fault of a JSON text that is found before its meaning is read. Only a key that occurs twice has a path (the key);
 /// after any other fault the rest of the text was not read.

@@ -52,6 +52,10 @@ std::string escaped(std::string_view text) {
       safe += "&lt;";
     else if (c == '>')
       safe += "&gt;";
+    else if (c == '"')
+      safe += "&quot;";
+    else if (c == '\'')
+      safe += "&#39;";
     else
       safe += c;
   }

@@ -22,8 +22,7 @@ void append_number(std::string& text, std::int64_t value);
 /// Appends UTF-8 text as a JSON string with its quotes. Quotes, backslashes and control characters are escaped.
 void append_text(std::string& text, std::string_view value);
 
-/// Returns a text with &, < and > escaped for the contents of XML and SVG elements. Quotes are not escaped, so the text
-/// is not safe in an attribute.
+/// Returns a text with &, <, > and both quotes escaped, for the contents and the attributes of XML and SVG elements.
 std::string escaped(std::string_view text);
 
 /// Returns bytes as base64 text (RFC 4648, with padding, without line breaks).

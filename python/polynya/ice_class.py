@@ -74,5 +74,5 @@ def frozen_layer(hull):
 def minimum_power(resistance, diameter, propellers, pitch="fixed"):
     """Returns the power that the rules require for a resistance R_ch [N], K_e R_ch^(3/2) / D_P [W]. `diameter` is that
     of a propeller [m], `propellers` their number (1 to 3) and `pitch` a key of FACTORS. The result may be below
-    LEAST_POWER, which is not applied here."""
+    LEAST_POWER, which the table of `polynya performance --channel` states below it."""
     return 1e3 * FACTORS[pitch][propellers] * (1e-3 * resistance) ** 1.5 / diameter

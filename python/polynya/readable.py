@@ -19,6 +19,6 @@ def in_hours(value):
 def force(value):
     """A force given in N, in N, kN or MN with three significant digits: 850 N, 12.5 kN, 3.28 MN."""
     for factor, name in ((1e6, "MN"), (1e3, "kN")):
-        if abs(value) >= factor:
+        if abs(float(f"{value:.3g}")) >= factor:
             return f"{value / factor:.3g} {name}"
     return f"{value:.3g} N"

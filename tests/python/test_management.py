@@ -344,6 +344,13 @@ def test_a_pattern_whose_ship_hits_the_protected_ship_is_warned_of_first_and_is_
     assert "circular (hit in 1 of 6)" in texts
 
 
+def test_an_axis_of_words_is_refused(tmp_path):
+    planned = synthetic(tmp_path / "study", {"linear": 0.5, "none": 1})
+    plan = json.loads((planned.folder / PLAN).read_text())
+    (planned.folder / PLAN).write_text(json.dumps({**plan, "report": {"against": "ships[1].pilot"}}))
+    assert "report.against: ships[1].pilot has values that are no numbers" in ended("management", planned.folder).stderr
+
+
 def test_results_of_a_version_that_did_not_measure_contacts_say_so(tmp_path):
     made = synthetic(tmp_path / "s", {"circular": 0.2, "none": 1}, drifts=(0.5,))
     assert "it was not measured whether an icebreaker hit rig" in succeeded("management", made.folder).stdout

@@ -206,7 +206,8 @@ def test_a_partial_gather_says_what_is_missing_and_how_to_repair_it(folder):
     assert [row["ice.thickness_m"] for row in cases] == ["0.4", "0.5", "0.6", "0.7"]
     assert cases[1]["resistance_mean_N"] == "" and float(cases[0]["resistance_mean_N"]) > 0
     assert "1 failed" in study("run", "studies/s", code=4)  # a failure is not tried again by itself
-    study("run", "studies/s", "--retry-failed", "--cases", "3", "--quiet")
+    assert "case 3 has failed before; --retry-failed" in study("run", "studies/s", "--case", "3", code=4)
+    study("run", "studies/s", "--retry-failed", "--case", "3", "--quiet")
     study("gather", "studies/s")
     summary = json.loads((folder / "studies/s/gather.json").read_text())
     assert summary["is_complete"] and summary["finished"] == 4 and not summary["repair"]

@@ -181,8 +181,9 @@ def test_lists_of_numbers_are_read_as_they_are_written():
     assert numbers_of_list("0,3-5,9,11-12", 13, "case") == numbers
     with pytest.raises(StudyError, match="there is no case 13"):
         numbers_of_list("2-13", 13, "case")
-    with pytest.raises(StudyError, match="no list of case"):
-        numbers_of_list("a", 13, "case")
+    for words in ("a", "5-3", "1,,2"):
+        with pytest.raises(StudyError, match="no list of cases"):
+            numbers_of_list(words, 13, "case")
 
 
 def test_a_case_that_the_scene_does_not_allow_is_refused_before_anything_runs(folder):
@@ -225,6 +226,15 @@ def test_planning_again_changes_nothing_and_a_study_may_grow(folder):
     assert open_study("studies/more").count == 5
     assert "copies" in study("plan", write_study(folder, "own", grid={"seed": [3, 4]}), "--repetitions", 5, code=2)
     assert "150" in (folder / "studies/s/scenes/0/plate.json").read_text()
+
+
+def test_a_plan_that_is_refused_leaves_the_cases_that_were_begun(folder):
+    begun = planned(folder) / "cases/000000/run"
+    begun.mkdir(parents=True)
+    study("plan", write_study(folder, set={"ice.thickness_m": -1}), "--trial-seconds", 0, code=3)
+    assert begun.exists()
+    study("plan", write_study(folder, set={"ice.thickness_m": 0.4}), "--trial-seconds", 0)
+    assert not begun.exists()
 
 
 def test_what_only_began_by_another_plan_is_removed(folder):

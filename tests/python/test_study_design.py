@@ -1,5 +1,6 @@
 """A study whose cases are the rows of a CSV file, and their measures as CSV."""
 import csv
+import os
 
 import pytest
 
@@ -54,6 +55,17 @@ def test_a_design_and_the_rest_of_a_study_agree(folder):  # noqa: F811
     (folder / "wrong.csv").write_text("ice.thickness_m\n0.4\n-1\n")
     assert "found -1" in study("plan", write_study(folder, design="wrong.csv"), "--trial-seconds", 0, code=3)
     assert "nowhere.csv" in study("plan", write_study(folder, design="nowhere.csv"), code=5)
+
+
+def test_a_study_that_was_planned_with_a_design_goes_on_after_its_file_was_written_again(folder):  # noqa: F811
+    (folder / "design.csv").write_text(DESIGN)
+    path = write_study(folder)
+    study("plan", path, "--design", "design.csv", "--out", "studies/s", "--trial-seconds", 0)
+    later = (folder / "studies/s/plan.json").stat().st_mtime + 10
+    os.utime(path, (later, later))
+    study("run", path, "--cases", 0, "--quiet")
+    (folder / "design.csv").write_text(DESIGN.replace("0.4,1,3", "0.4,1,9"))
+    assert "other cases" in study("run", path, "--cases", 0, code=5)
 
 
 def test_a_design_is_evaluated_to_measures(folder):  # noqa: F811

@@ -287,7 +287,8 @@ class FinalMap {
     area(true, "water", kWater, kWater);
     area(std::ranges::any_of(floes_, &DrawnFloe::came_up), "piece that came up from under the hull", kIceCameUp,
          kIceEdge);
-    area(true, "ship", kShip, kShip);
+    const bool has_ships = std::ranges::any_of(hulls_, std::not_fn(&DrawnHull::is_wall));
+    area(has_ships, "ship", kShip, kShip);
     area(std::ranges::any_of(hulls_, &DrawnHull::is_wall), "wall", kWall, kWall);
     if (!under_hulls_.empty())
       keys.push_back({"ice under the hull or waiting behind it", [this](Point at) {
@@ -295,11 +296,14 @@ class FinalMap {
                         add("<rect x='{:.2f}' y='{:.2f}' width='18' height='8' {} stroke-width='1.2'/>\n", at.x + 4,
                             at.y - 9, under_hull_style());
                       }});
-    keys.push_back({"its track", [this](Point at) {
-                      add("<path d='M{:.2f} {:.2f}h{}' stroke='{}' stroke-width='2' stroke-dasharray='8 4'/>\n", at.x,
-                          at.y - 5, kSwatch, kTrack);
-                    }});
+    if (has_ships)
+      keys.push_back({"its track", [this](Point at) {
+                        add("<path d='M{:.2f} {:.2f}h{}' stroke='{}' stroke-width='2' stroke-dasharray='8 4'/>\n", at.x,
+                            at.y - 5, kSwatch, kTrack);
+                      }});
     keys.push_back({"cusp broken by bending", [this](Point at) { disc({at.x + 9, at.y - 6}, kBend, 1); }});
+    if (count<simulation::Grind>() > 0)
+      keys.push_back({"overlap ground off", [this](Point at) { disc({at.x + 9, at.y - 6}, kGrind, 1); }});
     keys.push_back({"floe split", [this](Point at) { triangle({at.x + 9, at.y - 6}, kSplit, 1); }});
     return keys;
   }

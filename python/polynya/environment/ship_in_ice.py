@@ -23,8 +23,8 @@ class Change(typing.NamedTuple):
     """Changes in one step, from which rewards are computed."""
 
     progress: float  #: distance gained towards the goal, or along the initial heading without a goal [m]
-    #: Energy that the ship lost to contacts with ice in the step [J]: minus the mean forces and yaw moment times the
-    #: mean velocities and yaw rate, in the ship's frame at the end of the step. Ice under the hull is not in it.
+    #: Energy that the ship lost to the ice in the step [J], to contacts and to ice under the hull: minus the mean forces
+    #: and yaw moment times the mean velocities and yaw rate, in the ship's frame at the end of the step.
     ice_work: float
     seconds: float  #: simulated time of the step [s]
     reached: bool  #: true if the ship is within the radius of the goal after the step; false without a goal
@@ -144,7 +144,9 @@ class ShipInIce(Env):
             reached = bool(left <= self.goal_radius)
         surge, sway = _in_ship(0.5 * (before.velocity + after.velocity), after.heading)
         turning = 0.5 * (before.yaw_rate + after.yaw_rate)
-        work = -self.seconds * (forces["surge_N"] * surge + forces["sway_N"] * sway + forces["yaw_Nm"] * turning)
+        work = -self.seconds * sum(
+            speed * (forces[f"{along}_{unit}"] + forces[f"{along}_from_submerged_ice_{unit}"])
+            for along, unit, speed in (("surge", "N", surge), ("sway", "N", sway), ("yaw", "Nm", turning)))
         return Change(progress, float(work), self.seconds, reached, after, self.simulation.events())
 
     # Returns the observation of the present state, as the docstring of the class describes it.

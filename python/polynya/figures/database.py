@@ -1,13 +1,14 @@
 """Draws slices of an icebreaking database for `polynya database show --svg DIR` (polynya.command starts it). The
 program writes the curves of the figures to a JSON file (analysis/database_slices.hpp)."""
+import itertools
 import json
 import os
 import sys
 
 # Colour and dashes of the published formulas, by the `source` of a curve. They are the last curves of a figure.
 FORMS = {"Nevel": ("#000000", "--"), "Kashtelyan": ("#777777", ":")}
-# Colours of the curves of the database: first the load itself, then at most three neighbouring loads. A
-# figure with more curves of the database than colours would lack its last curves.
+# Colours of the curves of the database: first the load itself, then neighbouring loads. After the last colour the first
+# one follows again.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#aa4499")
 
 
@@ -24,7 +25,7 @@ def draw(figure, title, caption):
         force, radius = sheet.panels(1, 2).flat
         height = page.row_height(1, 58)
         handles = []
-        for curve, colour in zip(figure["curves"], [*COLOURS[: len(figure["curves"]) - len(FORMS)], None, None]):
+        for curve, colour in zip(figure["curves"], itertools.cycle(COLOURS)):
             colour, dash = FORMS.get(curve["source"], (colour, "-"))
             is_in_range = numpy.array(curve["is_in_range"], dtype=bool)
             for axes, key, unit in ((force, "vertical_force_N", 1e3), (radius, "cusp_radius_m", 1)):

@@ -6,9 +6,6 @@ import math
 from ..files import writing
 from . import estimate
 
-# Columns of a fit's parameters. Nothing reads this constant: fit_rows() names these columns itself.
-FIT_COLUMNS = ("shape", "scale_N")
-
 
 def estimates_of(loads, least):
     """Returns {kind: (Loads, Estimate)} for each kind of runs: the loads of that kind alone, and the estimate from

@@ -52,9 +52,9 @@ def rows_of(run, ship, start=0.0):
 def loads_on(run, gates):
     """Magnitudes of the horizontal loads on the body [N], one per row of forces.csv, of which each is the mean of an
     interval. Returns {"ice_load": array}, and "mooring_load" too if the body has a mooring. The load of the ice
-    includes the force of the ice under the hull forward, but not that to port."""
+    includes the force of the ice under the hull."""
     rows = rows_of(run, gates.body, gates.start)
-    ice = numpy.hypot(rows["surge_N"] + rows["surge_from_submerged_ice_N"], rows["sway_N"])
+    ice = numpy.hypot(*(rows[f"{along}_N"] + rows[f"{along}_from_submerged_ice_N"] for along in ("surge", "sway")))
     mooring = numpy.hypot(rows["surge_from_mooring_N"], rows["sway_from_mooring_N"])
     return {"ice_load": ice, **({"mooring_load": mooring} if is_moored(run.scene, gates.body) else {})}
 

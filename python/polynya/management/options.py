@@ -13,8 +13,8 @@ EXAMPLES = (
     "management studies/ice-management             gathers a study and ranks its patterns, with intervals",
 )
 REST = """Gates are lines across the drift, upstream of the protected body (docs/management.md). For a study, the
-measures are those that its collect.management requests. Needs Python 3 with numpy, and matplotlib for the figures
-(./setup.sh python).
+measures are those that its collect.management requests. Needs Python 3 with numpy, scipy for the ranking of a
+study, and matplotlib for the figures (./setup.sh python).
 """
 
 
@@ -22,7 +22,8 @@ def command_line():
     meaning = "Measure the effect of ice management, and rank the patterns of a study"
     parser = Parser("polynya management", meaning, EXAMPLES, REST)
     parser.add("folders", "Run folders, which are compared, or the folder of a study", metavar="FOLDER", nargs="+")
-    meaning = "Name of the protected ship or structure; the one that the pilots protect if not given"
+    meaning = ("Name of the protected ship or structure; if not given, the one that the pilots protect, otherwise the first "
+               "moored ship, otherwise the first structure")
     parser.add("--body", meaning, metavar="NAME")
     distance = number(0, 1e6, "m", is_open=True)
     parser.add("--upstream", "Distance of the upstream gate from the body [m]; beyond the patterns if not given",
@@ -41,5 +42,5 @@ def command_line():
     parser.add("--style", meaning, type=choice(STYLES), default="two-columns", metavar="|".join(STYLES))
     meaning = "File formats of the figures, separated by commas; svg,png if not given"
     parser.add("--format", meaning, type=choices(FORMATS), default=["svg", "png"], metavar="|".join(FORMATS))
-    parser.add("--json", "Print the measures as JSON, and write no files", action="store_true")
+    parser.add("--json", "Print the measures or the ranking as JSON, and write no table or figure", action="store_true")
     return parser

@@ -94,7 +94,6 @@ class Picture:
         self._draw_key(chart)
         self.history = History(self.run, ship, self.look, self.figure, (0, 0, 1, chart), self._font) if chart else None
         self.canvas.draw()
-        self._still = numpy.asarray(self.canvas.buffer_rgba()).copy()
         self._background = self.canvas.copy_from_bbox(self.figure.bbox)
         self._resting = None
         if self.history:

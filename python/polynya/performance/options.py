@@ -42,7 +42,7 @@ EXAMPLES = (
     "performance polaris --channel             in a channel of brash, and minimum power by the ice class rules",
 )
 REST = """Each thickness is a run in a plate of fast ice, repeated twice as long until the mean speed's standard error
-and its change between the halves are below the error asked for. Finished runs are kept: a curve that was stopped goes
+and its change between the halves are below the error asked for, or until it is 20 ship lengths long. Finished runs are kept: a curve that was stopped goes
 on. What a ship's file does not state is estimated where it can be (polynya ships FILE --for-performance lists it), and
 a table shows how far the speed moves with each particular, by the published formulas. Needs Python 3 with numpy, and
 matplotlib for the figure (./setup.sh python).
@@ -85,8 +85,8 @@ def command_line():
     parser = Parser("polynya performance", meaning, EXAMPLES, REST)
     meaning = "Name of a preset (polynya ships), or a JSON file with a ship in the form of a scene"
     parser.add("ship", meaning, metavar="SHIP")
-    meaning = ("Thicknesses of the ice [m], such as 0.4,0.8,1.2; if not given, ten up to that at which the formulas "
-               "stop the ship")
+    meaning = ("Thicknesses of the ice [m], such as 0.4,0.8,1.2; if not given, ten up to that at which Lindqvist's "
+               "formula stops the ship, 0.3,0.5,0.8 with --pack and --level, and 0.6,0.8,1 with --channel")
     parser.add("--thickness", meaning, type=thicknesses, metavar="LIST")
     meaning = f"Flexural strength of the ice [Pa]; {FLEXURAL_STRENGTH:g} if not given"
     parser.add("--flexural-strength", meaning, type=number(1, 1e9, "Pa"), metavar="PA")
@@ -96,7 +96,8 @@ def command_line():
     parser.add("--error", meaning, type=number(0, 1, is_open=True), metavar="SHARE")
     meaning = "Time step [s]; 0.01 if not given, or with --pack, --level and --channel the default of a scene"
     parser.add("--step", meaning, type=number(1e-5, 1, "s"), metavar="S")
-    meaning = "Folder for the runs, the table and the figure; runs/performance-SHIP if not given"
+    meaning = ("Folder for the runs, the table and the figure; runs/performance-SHIP if not given, or with --pack, --level "
+               "and --channel runs/resistance-SHIP")
     parser.add("--out", meaning, metavar="DIR")
     meaning = "Number of runs at a time; one per processor if not given"
     parser.add("--jobs", meaning, type=number(1, 1024, kind=int), metavar="N")

@@ -86,9 +86,11 @@ def print_table(found, ship):
     is_stated = "propeller_diameter_m" in ship.get("propulsion", {}).get("engine", {})
     if all(row["computed_N"] == "" for row in found):
         print("R_ch, P: not computed without runs (polynya performance SHIP --channel, without --list)")
-    unstated = "" if is_stated else f" (nobody stated the diameter: {DIAMETER_OVER_DRAUGHT:g} draughts)"
+    unstated = "" if is_stated else f" (assumed: {DIAMETER_OVER_DRAUGHT:g} draughts, because the ship does not state it)"
     print(f"H_M: thickness of the brash in the middle. R_ch, P: computed at {SPEED / KNOT:g} knots; P by the rules' "
           f"factor from it,\nfor {number} propeller{'s' if number > 1 else ''} of {diameter:.3g} m with fixed "
           f"pitch{unstated}")
-    print("rule: Finnish-Swedish ice class rules (recall); at least 2.8 MW for IA Super and 1 MW for the others. The "
-          "frozen\nlayer of IA Super is not computed here (docs/brash.md).")
+    least = {name: f"{power / 1e6:g} MW" for name, power in ice_class.LEAST_POWER.items()}
+    print(f"rule: Finnish-Swedish ice class rules (from memory); at least {least.pop(SUPER)} for IA Super and "
+          f"{'/'.join(dict.fromkeys(least.values()))} for the others.\nThe frozen layer of IA Super is not computed here "
+          "(docs/brash.md).")

@@ -8,7 +8,7 @@ import sys
 
 from .. import command
 from ..program import program
-from .case import DONE, INPUT_OUTPUT, run_case
+from .case import DONE, run_case, state_of
 from .folder import PLAN, counted, numbers_of_list, open_study, planned_folder
 from .located_json import StudyError
 from .options import PROCESSORS, command_line
@@ -17,7 +17,7 @@ from .stop import Stop
 
 # Action `run`: runs the cases that --chunk, --case or --cases name, or all, and plans the study first if it has no
 # plan. If the study sets `archive`, packed chunks with cases that must run again are unpacked before, and chunks are
-# packed afterwards, except with --case. A chunk or case that does not exist is an error of usage.
+# packed afterwards; with --case only a chunk that was packed before. A chunk or case that does not exist is an error of usage.
 def run(options):
     study = planned(options)
     if options.chunk_to_run is not None:
@@ -30,12 +30,17 @@ def run(options):
         numbers = range(options.case, options.case + 1)
     else:
         numbers = numbers_of_list(options.cases, study.count, "case") if options.cases else range(study.count)
+    was_packed = False
     if study.plan["archive"]:
         from . import archive
 
+        was_packed = options.case is not None and study.archive(options.case // study.chunk_size).exists()
         archive.unpack_to_run(study, numbers, options.keep, options.retry_failed)
     if options.case is not None:
-        return run_one(study, options)
+        code = run_one(study, options)
+        if was_packed:
+            archive.pack(study, options.case // study.chunk_size)
+        return code
     code = run_cases(study, numbers, options)
     if study.plan["archive"]:
         for chunk in archive.chunks_of(study, numbers):
@@ -54,8 +59,9 @@ def run_cases(study, numbers, options):
     )
 
 
-# Runs the case --case in this process and returns the exit code of `polynya run`. For a case in a packed chunk, which
-# has ended, this is the code of its result.
+# Runs the case --case in this process and returns the exit code of `polynya run`. For a case that has ended and is not
+# to run again, because its chunk is packed or because it failed and --retry-failed is not given, this is the code of
+# its result.
 def run_one(study, options):
     number = options.case
     chunk = number // study.chunk_size
@@ -64,6 +70,10 @@ def run_one(study, options):
 
         result = archive.results_of(study, chunk)[number - chunk * study.chunk_size]
         return result.get("exit_code", DONE)
+    state, result = state_of(study.case_folder(number))
+    if state == "failed" and not options.retry_failed:
+        print(f"polynya study: case {number} has failed before; --retry-failed runs it again", file=sys.stderr)
+        return result["exit_code"]
     stop = Stop()
     stop.raise_on_signals()
     code, message = run_case(study, number, stop.reader, options.keep)

@@ -79,13 +79,12 @@ def chunks_of(study, numbers):
 
 def unpack_to_run(study, numbers, keep, retries_failed):
     """Unpacks those chunks of the cases `numbers` that must run again: all if `keep` is "all" and the study kept only
-    summaries, because their run folders are gone; otherwise those with a failed case, if `keep` is "all" or
-    `retries_failed` is true."""
-    for chunk in chunks_of(study, numbers) if keep == "all" or retries_failed else []:
+    summaries, because their run folders are gone; otherwise those with a failed case, if `retries_failed` is true."""
+    is_thinned = keep == "all" and study.plan["keep"] == "summary"
+    for chunk in chunks_of(study, numbers) if is_thinned or retries_failed else []:
         if not study.archive(chunk).exists():
             continue
         mine = [result for result in results_of(study, chunk) if result["case"] in numbers]
-        is_thinned = keep == "all" and study.plan["keep"] == "summary"
         if is_thinned or any(result["state"] == "failed" for result in mine):
             unpack(study, chunk)
 

@@ -7,7 +7,7 @@ import shutil
 
 from ..files import read_text, writing
 from . import gather, jobs, plan
-from .case import DONE
+from .case import DONE, INPUT_OUTPUT
 from .definition import read_definition
 
 
@@ -23,14 +23,16 @@ def folder_of(options, definition):
 
 def evaluate(options):
     """Plans, runs and gathers a design, and copies the table to the file `options.measures`. A case that has failed
-    before is not run again. Returns the exit code of gather: DONE only if every case is finished. The table is written
-    in any case; rows of other cases have no measures."""
+    before is not run again. Returns the exit code of gather, DONE only if every case is finished, or INPUT_OUTPUT if
+    a worker process was killed. The table is written in any case; rows of other cases have no measures."""
     folder = folder_of(options, read_definition(options.study, options.design))
     planning = argparse.Namespace(out=folder, chunk=None, repetitions=None, most=10_000_000, trial_seconds=0,
                                   check_seeds=False, jobs=options.jobs, design=options.design)
     study = plan.plan_study(options.study, planning)
-    jobs.run_cases(study, range(study.count), options.jobs, keep=None, retries_failed=False, is_quiet=options.quiet)
-    code = gather.gather(study)
+    ran = jobs.run_cases(study, range(study.count), options.jobs, keep=None, retries_failed=False,
+                         is_quiet=options.quiet)
+    gathered = gather.gather(study)
+    code = INPUT_OUTPUT if ran == INPUT_OUTPUT else gathered
     with open(study.folder / gather.TABLE, encoding="utf-8", newline="") as table, writing(options.measures,
                                                                                           newline="") as out:
         shutil.copyfileobj(table, out)

@@ -5,6 +5,7 @@ In this module `lines` are the lines of cases.ndjson, one per case, `old` is the
 None, and `new` the plan that is to be written."""
 import concurrent.futures
 import hashlib
+import itertools
 import json
 import os
 import pathlib
@@ -61,13 +62,14 @@ def plan_study(file, options):
 
 def write_study(definition, folder, draft, lines, old, expanded, options):
     """Checks the cases, writes the folder and makes the trial; does nothing if the same plan is there. Scenes are
-    copied to the folder `draft` first, so that a refused plan replaces nothing (but see refuse_other_cases)."""
+    copied to the folder `draft` first, so that a refused plan replaces nothing."""
     count, text = len(lines), "".join(lines)
     scenes = copy_scenes(definition, draft, lines)
     new = {
         "format": FORMAT,
         "name": definition.name,
         "source": str(pathlib.Path(definition.file).absolute()),
+        **({"design": str(pathlib.Path(options.design).absolute())} if options.design else {}),
         "cases": count,
         "chunk": chunk_size(options.chunk, old, count),
         "archive": definition.archive,
@@ -81,7 +83,7 @@ def write_study(definition, folder, draft, lines, old, expanded, options):
     }
     if old is not None and is_same(old, new, folder, text):
         return Study(folder, old)
-    refuse_other_cases(old, new, folder, text)
+    begins_anew = changes_cases(old, new, folder, text)
     began = time.perf_counter()
     checked = check_cases(definition, draft, scenes, lines, options)
     print(
@@ -89,6 +91,8 @@ def write_study(definition, folder, draft, lines, old, expanded, options):
         + (", the others differ from them in seeds alone" if checked < count else ""),
         file=sys.stderr,
     )
+    if begins_anew:
+        shutil.rmtree(folder / "cases", ignore_errors=True)
     shutil.rmtree(folder / "scenes", ignore_errors=True)
     os.rename(draft / "scenes", folder / "scenes")
     write_cases(folder, lines)
@@ -105,9 +109,9 @@ def plan_in(folder):
 
 
 def is_same(old, new, folder, text):
-    """Returns True if the old plan has the same contents and cases as the new one. The place of the study's file, the
-    estimate of the trial and the checksum may differ."""
-    same = {"source": None, "estimate": None, "crc32": None}
+    """Returns True if the old plan has the same contents and cases as the new one. The places of the study's file and
+    design, the estimate of the trial and the checksum may differ."""
+    same = {"source": None, "design": None, "estimate": None, "crc32": None}
     return {**old, **same} == {**new, **same} and read_text(folder / CASES) == text
 
 
@@ -117,16 +121,15 @@ def what_differs(plan, members):
     return f"other {', '.join(names)}" if names else ""
 
 
-def refuse_other_cases(old, new, folder, text):
-    """Raises StudyError if cases have ended by the old plan and the new one would change cases. Allowed are further
-    cases after the old ones (more repetitions or draws), and other values of keep and report. If no case has ended,
-    any change is allowed, and cases that were begun by the old plan are removed, even if the check of the new cases
-    then fails."""
+def changes_cases(old, new, folder, text):
+    """Returns True if the new plan changes cases that were begun by the old one, which must then be removed. Raises
+    StudyError if such cases have ended. Not a change are further cases after the old ones (more repetitions or draws),
+    and other values of keep and report."""
     if old is None:
-        return
+        return False
     what = what_differs(old, {key: new[key] for key in ("set", "scenes", "inputs", "collect", "chunk", "archive")})
     if not what and text.startswith(read_text(folder / CASES)):
-        return
+        return False
     cases = folder / "cases"
     if any(found for pattern in ("*/case.json", "*/*/case.json", "*.tar") for found in cases.glob(pattern)):
         raise StudyError(
@@ -134,16 +137,16 @@ def refuse_other_cases(old, new, folder, text):
             f"(--out) or remove it",
             5,
         )
-    shutil.rmtree(cases, ignore_errors=True)
+    return True
 
 
 def refuse_changed_file(file, study):
     """Raises StudyError if a study's file now sets or collects something else than the plan that was made from it. Only
-    a file that is newer than the plan is compared. The number of repetitions may differ, because --repetitions of
-    `plan` changes it."""
+    a file that is newer than the plan is compared, with the design of the plan (--design), if it had one. The number of
+    repetitions may differ, because --repetitions of `plan` changes it."""
     if os.path.getmtime(file) <= os.path.getmtime(study.folder / PLAN):
         return
-    definition = read_definition(file, None)
+    definition = read_definition(file, study.plan.get("design"))
     now = {"set": definition.fixed, "collect": definition.collect, "varied": varied_paths(definition)}
     what = what_differs(study.plan, json.loads(json.dumps(now)))
     lines = "".join(json.dumps({"scene": scene, "set": case}) + "\n" for scene, case in expand(definition))
@@ -165,14 +168,8 @@ def chunk_size(given, old, count):
         return given
     if old is not None and -(-count // old["chunk"]) <= MOST_TASKS:
         return old["chunk"]
-    needed, size = -(-count // MOST_TASKS), 1
-    while size < needed:
-        size = (
-            size * 10
-            if str(size)[0] == "5" and size * 10 < needed
-            else next(s for s in (size * 2, size * 5, size * 10) if s >= needed or s == size * 10)
-        )
-    return size
+    sizes = (digit * 10**power for power in itertools.count() for digit in (1, 2, 5))
+    return next(size for size in sizes if size * MOST_TASKS >= count)
 
 
 def copy_scenes(definition, folder, lines):
