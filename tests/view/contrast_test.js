@@ -3,7 +3,7 @@
 "use strict";
 const { test, before, assert, folder, open } = require("./bench.js");
 const { makeRun, makePage, smallScene, ship } = require("./runs.js");
-const { faintTexts } = require("./contrast.js");
+const { faintTexts, faintTextsInCanvases } = require("./contrast.js");
 
 let page;
 before(async () => {
@@ -27,5 +27,22 @@ for (const theme of ["light", "dark"]) {
       assert.deepEqual(faint, [], state);
     }
     await page.keyboard.press("Escape");
+    const { seen, faint } = await faintTextsInCanvases(page, async () => {
+      for (const time of [2, 4]) {
+        await page.act("goTo", time);
+        await page.act("selectShip", time);
+        await page.player(({ plot }) => plot.show(0, plot.span[1] - 1));
+        await page.evaluate(() => new Promise((done) => { setTimeout(done, 300); }));
+      }
+    });
+    assert.ok(seen >= 20, `only ${seen} texts are drawn into canvases`);
+    assert.deepEqual(faint, [], "in canvases");
+    const made = await faintTextsInCanvases(page, () => page.evaluate(() => {
+      const context = document.querySelector("canvas").getContext("2d");
+      context.fillStyle = getComputedStyle(document.body).backgroundColor;
+      context.fillText("faint words", 5, 5);
+    }));
+    assert.equal(made.faint.length, 1, "a text that is drawn faintly is found");
+    assert.match(made.faint[0], /^canvas "faint words"/);
   });
 }
