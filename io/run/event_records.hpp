@@ -26,13 +26,15 @@ using simulation::Is;
 
 /// Meaning and properties of a field.
 struct FieldMeaning {
-  std::string_view unit;        ///< unit for people; empty for words, counts and ids
+  /// Unit for people; empty for words, counts and ids. The player does not show a number in m² that is 0.
+  std::string_view unit;
   std::string_view meaning;     ///< description in docs/run-folder.md; a test compares the page with it
   std::string_view label = {};  ///< name in the player and in `polynya inspect`; empty: they do not show the field
   /// Smallest number that the reader accepts, in the unit of the field. It also refuses NaN.
   double least = -std::numeric_limits<double>::infinity();
-  /// Set for a field that a line may lack, for example a line of an older version. True: this event has the field, and
-  /// it is written. Without a value the field is always written, and a line without it is refused.
+  /// Set for a field that a line may lack because it does not apply or because an older version did not write it. True:
+  /// this event has the field, and it is written. Without a value the field is always written, and a line without it is
+  /// refused.
   std::optional<bool> is_there = {};
   bool is_derived = false;  ///< true for a field that is computed from others, so that the reader skips it
 };
@@ -67,6 +69,8 @@ inline constexpr FieldMeaning kRule = derived({"", "the rule in words"});
 
 // criterion() passes the fields of a criterion. The meaning of its last parameter depends on the criterion.
 
+/// The criterion by which ice goes under a hull. Without a least deflection nothing was compared: a cusp went under as
+/// it broke off, or the scene put the floe under the hull at the start. Both have the words of the cusp.
 template <class Line>
 void criterion(Line& line, Is<simulation::TiltCriterion> auto& c, bool) {
   const bool tilts = c.least_deflection != 0;
@@ -89,7 +93,8 @@ void criterion(Line& line, Is<simulation::TiltCriterion> auto& c, bool) {
             "covered", 0}));
 }
 
-/// `comes_up`: the piece surfaced. Otherwise it stays under the ice.
+/// `comes_up`: the piece surfaced. Otherwise it stays under the ice, after its longest wait, or without a wait if the
+/// scene lets no ice surface (ResurfaceSettings::is_enabled).
 template <class Line>
 void criterion(Line& line, Is<simulation::ResurfaceCriterion> auto& c, bool comes_up) {
   line("kind",
@@ -104,6 +109,9 @@ void criterion(Line& line, Is<simulation::ResurfaceCriterion> auto& c, bool come
   line("longest_wait_s", c.longest_wait, {"s", "waiting time after which the piece stays under the ice", {}, 0});
 }
 
+/// The criterion by which an overlap is ground. With a least width, it was cut off because no contact can part the
+/// bodies. Without one, ice was crushed, a hull pierced the floe, or a hull of prescribed motion carved a channel; all
+/// three have the words for crushed overlaps, and no widths.
 template <class Line>
 void criterion(Line& line, Is<simulation::GrindCriterion> auto& c, bool) {
   const bool is_inseparable = c.least_width > 0;
@@ -119,7 +127,9 @@ void criterion(Line& line, Is<simulation::GrindCriterion> auto& c, bool) {
 }
 
 /// The rule by which ice bends or splits, and the loads and capacities of all rules that were compared. `is_split`: the
-/// ice split, or a split was refused. Otherwise it is a bend, for which the loads of the crack have no label.
+/// ice split, or a split was refused. Otherwise it is a bend, for which the loads of the crack have no label. j is the
+/// impulse of the collision and τ_c its assumed contact time. Fields with optional(true) are always written; old lines
+/// lack them.
 template <class Line>
 void criterion(Line& line, Is<fracture::FailureCriteria> auto& c, bool is_split) {
   const simulation::DecidingLoad by = simulation::deciding_load(c, is_split);
@@ -280,9 +290,9 @@ inline constexpr std::int64_t kMostRejectedCuts = 100;
 /// Writes a cut that geometry refused at a time [s] into a run folder, in the format that `polynya cut` reads
 /// (docs/cut.md):
 ///   polynya cut rejected-cuts/000001.geojson --ops rejected-cuts/000001-ops.json
-/// The function returns after the disk has stored the files, so that they survive a failure of the machine. It writes
-/// nothing for cuts beyond the first kMostRejectedCuts. It fails if the folder rejected-cuts is a link or cannot be
-/// written to.
+/// The name is the number of the cut, CutInput::number; nothing is written if it is above kMostRejectedCuts. The
+/// function returns after the disk has stored the files, so that they survive a failure of the machine. It fails if the
+/// folder rejected-cuts is a link or cannot be written to.
 Result<> write_rejected_cut(const std::filesystem::path& run_folder, double time, const simulation::RejectedCut& cut);
 
 /// Removes the files that write_rejected_cut() wrote, and their folder if nothing else is in it. It fails if the folder

@@ -95,9 +95,9 @@ struct Run {
   std::vector<simulation::Event> events;        ///< in the order of events.ndjson
   std::vector<simulation::HullSample> samples;  ///< rows of forces.csv
   std::vector<Frame> frames;                    ///< in order of time
-  /// Contacts at frames, in order of time; empty in runs of versions that did not record them.
+  /// Contacts at frames, in order of time; empty if the scene records none, or in runs of versions without them.
   std::vector<RunContact> contacts;
-  /// Peaks of contact forces, in order of time; empty in runs of versions that did not record them.
+  /// Peaks of contact forces, in order of time; empty if the scene records none, or in runs of versions without them.
   std::vector<RunContact> peaks;
   std::vector<RunCrushed> crushed;  ///< in order of time
   bool has_crushed = false;         ///< false in runs of versions that did not record it
@@ -128,7 +128,8 @@ struct Run {
 
 /// Reads a run folder, finished or not. An incomplete last line or frame, as a killed run leaves it, is ignored in an
 /// unfinished run and an error in a finished one. Fails if the folder has no run, is of a later version, or if a file
-/// is missing, longer than kLongestRunFile or damaged. The message has the file, and the line or frame if there is one.
+/// is missing that all versions write, or if a file is longer than kLongestRunFile or damaged. The message has the
+/// file, and the line or frame if there is one.
 Result<Run> read_run(const std::filesystem::path& folder);
 
 /// Motions of all bodies of a run at any time. It sorts the records of the frames by floe, and needs the run only while
@@ -138,13 +139,13 @@ class MotionIndex {
   explicit MotionIndex(const Run& run);
 
   /// Returns the motion of a floe's centre of mass at a time [s]; nothing if no frame has the floe. If the next frame
-  /// has a record of the floe, the motion is interpolated linearly between the two frames. Otherwise, and before the
-  /// first or after the last record, it is the nearest record, extrapolated at constant velocity. The function does not
-  /// check whether the floe exists at that time.
+  /// has a record of the floe, the motion is interpolated linearly between the two frames. Otherwise it is the last
+  /// record up to then, or the first record if there is none before, extrapolated at constant velocity. The function
+  /// does not check whether the floe exists at that time.
   std::optional<Motion> floe_at(simulation::FloeId floe, double time) const;
-  /// Returns the motion of a ship, structure or wall by its number in the scene, interpolated linearly between two
-  /// frames. Before the first frame it is that of the first one; after the last frame it is extrapolated at constant
-  /// velocity. Returns nothing if the run has no frames.
+  /// Returns the motion of the origin of a hull's frame, by the hull's number in the scene, interpolated linearly
+  /// between two frames. Before the first frame it is that of the first one; after the last frame it is extrapolated at
+  /// constant velocity. Returns nothing if the run has no frames.
   std::optional<Motion> ship_at(std::size_t ship, double time) const;
 
  private:

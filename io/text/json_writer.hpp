@@ -15,11 +15,12 @@
 namespace polynya::io {
 
 /// Appends a number as the shortest text that reads back to the same double, independent of the locale. −0 is written
-/// as 0, numbers that are not finite as null.
+/// as 0, whole numbers without a point, and numbers that are not finite as null.
 void append_number(std::string& text, double value);
 void append_number(std::string& text, std::int64_t value);
 
-/// Appends UTF-8 text as a JSON string with its quotes. Quotes, backslashes and control characters are escaped.
+/// Appends UTF-8 text as a JSON string with its quotes. Quotes, backslashes and control characters are escaped; whether
+/// the text is valid UTF-8 is not checked.
 void append_text(std::string& text, std::string_view value);
 
 /// Returns a text with &, <, > and both quotes escaped, for the contents and the attributes of XML and SVG elements.
@@ -37,7 +38,7 @@ std::string to_base64(std::string_view bytes);
 class JsonWriter {
  public:
   /// All on one line (except after start_line()), or each item and member on a line of its own, indented by two blanks
-  /// per level.
+  /// per level. A point, a vector and a ring are one item.
   enum class Layout { kLine, kIndented };
   /// `text` must exist longer than this object.
   explicit JsonWriter(std::string& text, Layout layout = Layout::kLine) : text_(text), layout_(layout) {}
@@ -49,7 +50,7 @@ class JsonWriter {
   /// Writes the key of a member of the open object. Its value must follow.
   JsonWriter& key(std::string_view name);
   // value() writes an item of the open list, or the value of the last key. Points and vectors are written as [x, y],
-  // and a ring as a list of its points, without closing it.
+  // and a ring as a list of its points, without closing it. Integers must fit into 64 bits with a sign.
   JsonWriter& value(double number) {
     return put([=](std::string& text) { append_number(text, number); });
   }
@@ -144,9 +145,10 @@ std::string json_object(Write write, JsonWriter::Layout layout = JsonWriter::Lay
 /// as outlines, stay on one line. The same value always gives the same text, so that the text can be hashed.
 std::string to_json_text(const JsonValue& value);
 
-/// Writes a GeoJSON FeatureCollection of one instant with one feature per line. For each feature, start() opens its
-/// properties, the caller writes them, and end_with() closes them and writes the geometry. finish() ends the
-/// collection. The object must not be moved or copied, because its writer refers to its text.
+/// Writes a GeoJSON FeatureCollection of one instant with one feature per line. Coordinates are written as they are
+/// given. For each feature, start() opens its properties, the caller writes them, and end_with() closes them and writes
+/// the geometry. finish() ends the collection. The object must not be moved or copied, because its writer refers to its
+/// text.
 class GeojsonLayer {
  public:
   /// `time` [s] is that of the instant, and is written as "t_s". `members` are further members of the collection as

@@ -85,7 +85,8 @@ def profile(guess, rows):
 
 
 def most_likely(rows):
-    """Shape and scale with the largest posterior for each row of excesses, by golden-section search."""
+    """Shape and scale with the largest posterior for each row of excesses, by golden-section search over the `guess` of
+    profile(). Its upper limit, 0.8, is below 1, where the mean of the distribution would be infinite."""
     rows = numpy.atleast_2d(rows)
     mean = rows.mean(axis=1)
     end = -mean / rows.max(axis=1)  # beyond this value the largest peak lies beyond the end of the tail
@@ -130,7 +131,9 @@ class Tail:
 
     @functools.cached_property
     def posterior(self):
-        """Shapes, scales [N] and weights on a grid around their most likely values."""
+        """Shapes, scales [N] and weights on a grid around their most likely values. To each side the grid extends by
+        several standard errors, 7.8/√count for the shape and 7/√count for the logarithm of the scale, with upper limits
+        for few peaks."""
         shape, scale = (float(found[0]) for found in most_likely(self.excesses))
         reach = 6 * min(SHAPE_SPREAD, 1.3 / math.sqrt(self.count))
         shapes = numpy.linspace(max(LEAST_SHAPE, shape - reach), min(MOST_SHAPE, shape + reach), NODES[0])
@@ -203,7 +206,8 @@ class Tail:
     def record_needed(self, period, half_width):
         """The length of record [h] for which the interval of `level` is at most ± half_width of the value, and the
         period is at most FARTHEST records. The interval of this record is scaled by the information of more peaks. None
-        if the shape is at the limit of the formula."""
+        if the shape is near -0.5, below which the formula fails, if the tail does not reach the period, or if more than
+        a million periods were needed."""
         if self.shape.value <= -0.45 or not self.reaches(period):
             return None
         level = self.level(period)
@@ -232,11 +236,11 @@ def distances(rows):
 
 
 def goodness(excesses, seed=0):
-    """p value of the fit, by a parametric bootstrap: the fraction of samples of the fitted distribution that are as far
-    from their own fits as this sample is from its fit. It is three times the smallest of three p values, so that it is
-    small by chance no more often than one test. The tests are Anderson and Darling's distance, for the whole tail, and
-    two for the largest peak, which a fit to many small peaks may make impossible, or may predict to be larger than the
-    ice can carry."""
+    """p value of the fit, by a parametric bootstrap; a small one refutes the fit (estimate.REFUTED). The p value of a
+    test is the fraction of samples of the fitted distribution that are as far from their own fits as this sample is
+    from its fit. The result is three times the smallest of three p values, so that it is small by chance no more often
+    than one test. The tests are Anderson and Darling's distance, for the whole tail, and two for the largest peak,
+    which a fit to many small peaks may make impossible, or may predict to be larger than the ice can carry."""
     own = numpy.sort(excesses)[None, :]
     shape, scale = (float(found[0]) for found in most_likely(own))
     # Enough samples to recognise p = 0.05 even in a long record.

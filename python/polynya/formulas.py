@@ -41,7 +41,7 @@ def hull_of(ship):
 
 @dataclasses.dataclass(frozen=True)
 class Ice:
-    """Level ice in water."""
+    """Level ice in water. The defaults are those of a scene."""
 
     thickness: float  # [m]
     flexural_strength: float = 0.8e6  # [Pa]
@@ -99,7 +99,7 @@ def rise(hull):
 
 
 def slide(hull):
-    """s̄, the distance that ice slides along the hull, for friction [m]."""
+    """s̄, the distance that ice slides along the hull, for friction [m]. Unlike in C++, it may be negative here."""
     psi = math.atan(math.tan(hull.stem) / math.sin(hull.entrance))
     return (
         0.7 * hull.length
@@ -153,8 +153,9 @@ PULL_OF_PROPELLERS = {1: 0.78, 2: 0.98, 3: 1.12}
 
 
 def bollard_pull(power, diameter, propellers, has_nozzles=False):
-    """Bollard pull K_e (P D)^⅔ [N], the thrust of all propellers at rest. P is the power of all propellers [W], D the
-    diameter of one [m]. `propellers` is 1, 2 or 3. Nozzles multiply the pull by 1.4."""
+    """Bollard pull K_e (P D)^⅔ of the ice class rules [FSICR] (recall) [N], the thrust of all propellers at rest. P is
+    the power of all propellers [W], D the diameter of one [m]. `propellers` is 1, 2 or 3. Nozzles multiply the pull by
+    1.4."""
     factor = PULL_OF_PROPELLERS[propellers] * (1.4 if has_nozzles else 1)
     return 1e3 * factor * (1e-3 * power * diameter) ** (2 / 3)
 
@@ -167,8 +168,10 @@ def net_thrust(bollard, open_water_speed, speed):
 
 
 def equilibrium(bollard, open_water_speed, resistance):
-    """The speed at which the net thrust equals the function resistance(speed) [m/s], by bisection to 1e-9 m/s. It is 0
-    if the resistance at 1 mm/s is not below the thrust; not at rest, where some formulas are undefined."""
+    """The speed at which the net thrust equals the function resistance(speed) [m/s], by bisection to 1e-9 m/s. The
+    resistance must grow with speed, so that there is one such speed. The result is 0 if the resistance at 1 mm/s is not
+    below the thrust; 1 mm/s is used because some formulas are undefined at rest. The resistance of open water is part
+    of the net thrust."""
 
     def excess(speed):
         return net_thrust(bollard, open_water_speed, speed) - resistance(speed)

@@ -1,5 +1,5 @@
 """Draws slices of an icebreaking database for `polynya database show --svg DIR` (polynya.command starts it). The
-program writes the curves of the figures to a JSON file (analysis/database_slices.hpp)."""
+program writes the curves of the figures to slices.json in DIR (analysis/database_slices.hpp), which is kept."""
 import itertools
 import json
 import os
@@ -7,14 +7,15 @@ import sys
 
 # Colour and dashes of the published formulas, by the `source` of a curve. They are the last curves of a figure.
 FORMS = {"Nevel": ("#000000", "--"), "Kashtelyan": ("#777777", ":")}
-# Colours of the curves of the database: first the load itself, then neighbouring loads. After the last colour the first
-# one follows again.
+# Colours of the curves of the database: first the load itself, then the same load with other wedge angles, or speeds.
+# After the last colour the first one follows again.
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#aa4499")
 
 
 def draw(figure, title, caption):
     """Draws a figure of the file of slices: the force that breaks a wedge of ice, and the radius of the cusp. Returns
-    the matplotlib figure. A curve is faint where its point is outside the range of the database or of the formula."""
+    the matplotlib figure. A curve is faint where its point is outside the range of the database or of the formula.
+    Panels are 58 mm high on a page of the default style."""
     import numpy
     from matplotlib.lines import Line2D
 

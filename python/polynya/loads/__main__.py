@@ -10,8 +10,9 @@ DONE, USAGE = 0, 2  # exit codes, with the values of app/command_line/console.hp
 
 
 def draw(loads, estimates, options, out):
-    """Writes the figures that have enough data into the folder `out` and prints their names. SVG is always among the
-    formats, because the page shows it. Returns (name of the SVG, description) for each figure."""
+    """Writes the figures that have enough data into the folder `out` and prints their names, in the style and the
+    formats of the options. SVG is always among the formats, because the page shows it. `estimates` has
+    (Loads, Estimate) by kind of run. Returns (name of the SVG, description) for each figure."""
     from polynya.figures.page import STYLES, Page, save
 
     from . import pictures
@@ -27,8 +28,13 @@ def draw(loads, estimates, options, out):
 
 
 def report(options):
-    """Gathers the peaks, writes loads-*.csv, the figures and loads.html, and prints the results. Returns an exit code:
-    USAGE if the options do not fit the folder, for example a ship that the run does not have."""
+    """Gathers the peaks, writes loads-*.csv, the figures and loads.html, and prints the results. Of the options
+    (loads/options.py), `folder` is that of a run or a study, `start` the first time that counts [s], `panel` the length
+    of the panels by which peaks are counted [m], `least` the threshold of the fits [N], and `half_width` that of the
+    intervals for which the record needed is stated, as a fraction of the value. A table without rows is not written,
+    but one of an earlier call is left. Returns an exit code: USAGE if the options do not fit the folder, for example a
+    ship that the run does not have. run() reports other errors and gives their exit codes."""
+    # These modules need numpy, scipy and matplotlib, which the texts of --help do not.
     from polynya.errors import InputError
     from polynya.study.located_json import StudyError
 

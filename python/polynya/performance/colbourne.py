@@ -46,8 +46,10 @@ def scale(point, beam, density):
 
 
 def fit(points, resistances, beam, density):
-    """Fits by least squares of the logarithm of the resistance [N]. Points are mappings; resistances must be > 0.
-    Raises NotEnough if there are too few points, or if they have only one Froude number."""
+    """Fits by least squares of the logarithm of the resistance [N]. Points are mappings with the speed, the thickness
+    and the cover, which must be > 0, as must resistances. `beam` is that of the ship [m], `density` that of the ice
+    [kg/m³]. Raises NotEnough if there are too few points, or if they do not determine the coefficients: if they have
+    only one Froude number, or if their Froude numbers follow from their covers."""
     has_covers = len({point["cover"] for point in points}) > 1
     columns = [np.ones(len(points)), [-math.log(froude(point)) for point in points]]
     if has_covers:

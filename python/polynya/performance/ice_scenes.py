@@ -27,8 +27,9 @@ def ship_at(ship, speed):
 
 
 def field(corner, extent, point):
-    """A field of random floes with the cover and the mean size of the point; `corner` is its corner with the smallest
-    x and y, `extent` its size along x and y [m]."""
+    """A field of random floes with the cover of the point. Its floe size is the mean of √area of the floes, and their
+    standard deviation is 0.3 of it. `corner` is the field's corner with the smallest x and y, `extent` its size along x
+    and y [m]."""
     return {"field": {"corner_m": corner, "extent_m": extent, "floe_size_m": point["floe_size_m"], "size_spread": 0.3,
                       "concentration": point["cover"]}}
 
@@ -37,7 +38,7 @@ def ice_of(regime, hull, way, point):
     """Returns the scene's `floes`, and keys of its `fracture` that belong to them, for `way` metres of ice in front of
     the ship. Pack ice is at least ten beams and ten floes wide, and its floes may split. Level ice is a plate five
     beams wide. Plates and channels are held by fast ice, do not split, and pieces under the hull do not surface
-    again."""
+    again (level_ice.ENDLESS). The thickness of pack and level ice is set with the scene's `ice`."""
     beam = hull["beam_m"]
     if regime == PACK:
         width = max(10 * beam, 10 * point["floe_size_m"])
@@ -58,9 +59,9 @@ def brash_channel(beam, way, point):
 
 
 def scene(regime, ship, ice, point, seed, step):
-    """The scene of a point. `ice` is a formulas.Ice with the properties of the ice, `seed` selects random floes and
-    strengths, `step` is the time step [s], or None for the default of a scene. Forces are recorded 20 times per ship
-    length, at intervals of at least 0.1 s."""
+    """The scene of a point. `ice` is a formulas.Ice with the properties of the ice and the thickness of the point,
+    `seed` selects random floes and strengths, `step` is the time step [s], or None for the default of a scene. Forces
+    are recorded 20 times per ship length, at intervals of at least 0.1 s."""
     length, speed = ship["hull"]["length_m"], point["speed_m_per_s"]
     way = LENGTHS * length
     floes, settings = ice_of(regime, ship["hull"], way, point)

@@ -17,7 +17,7 @@ class Particular:
 
     key: str  # path of the scene's key, such as hull.length_m
     value: float  # in the unit of the key
-    source: str  # "estimated" or "default" if nobody stated the value, otherwise another word, such as "given"
+    source: str  # "estimated" or "default" if nobody stated the value, otherwise "given" or the name of a preset
     # Function of a factor `by` that returns (hull, engine, ice) with the particular multiplied by it, or None if that
     # change is not possible. The number of propellers is not multiplied: a factor above 1 adds one propeller.
     changed: object
@@ -29,11 +29,12 @@ class Particular:
 
 
 def particulars(ship, hull, engine, ice, sources, is_given):
-    """Returns the list of all Particulars on which the formulas depend. `hull`, `engine` and `ice` are the inputs of
-    formulas.level_ice_speeds(), made from `ship` of the scene. `sources` has the source of each key of the ship,
-    `is_given` for "flexural_strength" and "friction" whether the command line had them. If the bollard pull is stated,
-    power, diameter and number of propellers do not matter and are left out. The number is also left out if it is 3,
-    because there is no factor for 4."""
+    """Returns the list of the Particulars that the formulas use and that a ship file or the command line can state. The
+    densities and the elasticity of the ice, which neither has, are left out. `hull`, `engine` and `ice` are the inputs
+    of formulas.level_ice_speeds(), made from `ship` of the scene. `sources` has the source of each key of the ship,
+    also of keys that have their defaults, `is_given` for "flexural_strength" and "friction" whether the command line
+    had them. If the bollard pull is stated, power, diameter and number of propellers do not matter and are left out.
+    The number is also left out if it is 3, because there is no factor for 4."""
     found = []
 
     def of_hull(key, name):
@@ -79,8 +80,9 @@ def mean_speed(hull, engine, ice, thickness):
 
 
 def changes(particular, thicknesses, base):
-    """For each thickness the pair of changes of the mean speed [m/s] if the particular is smaller and larger by the
-    fraction STEP; for propellers (None, change with one more). `base` is the mean speed for each thickness [m/s]."""
+    """For each thickness the pair of changes of the mean speed [m/s], which are 0 where the ship is stuck before and
+    after them, if the particular is smaller and larger by the fraction STEP; for propellers (None, change with one
+    more). `base` is the mean speed for each thickness [m/s]."""
     def change(sign, h, speed):
         changed = particular.changed(1 + sign * STEP)
         return None if changed is None else mean_speed(*changed, h) - speed
@@ -110,7 +112,7 @@ def shown_thicknesses(thicknesses):
 
 
 def as_rows(rows, thicknesses):
-    """Rows of sensitivity.csv, one for each particular and thickness."""
+    """Rows of sensitivity.csv, one for each particular and thickness. The cell of a change of None is empty."""
     return [{"particular": one.key, "value": one.value, "from": one.source, "thickness_m": h,
              "change_at_minus_10_percent_m_per_s": less, "change_at_plus_10_percent_m_per_s": more}
             for one, pairs in rows for h, (less, more) in zip(thicknesses, pairs)]

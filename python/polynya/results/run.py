@@ -27,7 +27,8 @@ class Run:
 
     Tables are pandas frames, or numpy's structured arrays if pandas is not installed (`pandas=True` requires frames,
     `False` gives arrays). Columns have the names and units of the files, and numbers are those of the files. Floes are
-    shapely polygons, or GeoJSON polygons if shapely is not installed (`shapely=` works in the same way).
+    shapely polygons, or GeoJSON polygons if shapely is not installed (`shapely=` works in the same way). If a required
+    package is not installed, reading a table or polygons raises ImportError.
 
     Raises NotARunError; UnfinishedError (except with `unfinished=True`, which reads the part that exists);
     VersionError; and FolderError with the file and the line if a file is missing or damaged. The program reads the
@@ -125,7 +126,8 @@ class Run:
 
     @property
     def contacts(self) -> Any:
-        """contacts.csv: contacts at every frame; -1 if a body is no floe."""
+        """contacts.csv: the contacts at every frame that the scene's `record.contacts` selects; -1 if a body is no
+        floe."""
         return table(self._contact_rows(of_peaks=False), self.pandas)
 
     @property
@@ -154,8 +156,8 @@ class Run:
 
     @property
     def crushed(self) -> Any:
-        """crushed.csv: for each pair of bodies the areas of their overlap that contacts have crushed or tilted, at
-        every frame."""
+        """crushed.csv: for each pair of bodies the areas of their overlap that contacts have crushed or tilted, the
+        crushed volume and its work, at every frame."""
         return self._table("crushed.csv", "run folders of version 2 and before")
 
     @property
@@ -182,11 +184,13 @@ class Run:
         """floes.ndjson: all floes of the run, one row per floe. `died_s` is the time at which a floe broke, was ground,
         or surfaced as another floe or stayed under the ice after it had gone under a hull; `went_under_s` is the time
         at which it went under. Both are infinite if that did not happen. `came_up` is true if the floe, or a floe from
-        which it broke, surfaced from there. `frame(time)` has the shapes."""
+        which it broke, surfaced from there. `generation` is the number of ancestors of the floe, and area and mass are
+        those at its birth. `frame(time)` has the shapes."""
         return table(self.births, self.pandas)
 
     def _table(self, name, lacking):
-        """A table of a file; `lacking` says which runs do not have that file."""
+        """A table of a file; `lacking` says which runs do not have that file. Raises VersionError, which is a
+        FolderError, if it is missing."""
         return table(self._columns(name, lacking), self.pandas)
 
     def _columns(self, name, lacking):

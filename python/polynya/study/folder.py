@@ -21,7 +21,11 @@ from .located_json import StudyError, shown
 
 PLAN, CASES, INDEX = "plan.json", "cases.ndjson", "cases.index"
 FORMAT = 1  # version of plan.json; plans of another version are refused
-KEYS = {  # members that plan.json must have, and their types
+# Members that plan.json must have, and their types. `cases` is the number of cases, `chunk` the number of cases in a
+# chunk. `archive` is true if ended chunks are packed. `keep` is "all", or "summary" if finished cases keep no run
+# folder. `set` has the values, by path, that are the same for all cases. `scenes` has the files of the scenes, `varied`
+# the paths that vary. `collect` and `report` are copied from the study's file (docs/studies.md).
+KEYS = {
     "format": int, "name": str, "cases": int, "chunk": int, "archive": bool, "keep": str, "set": dict, "scenes": list,
     "varied": list, "collect": dict, "report": dict,
 }
@@ -70,7 +74,7 @@ class Study:
     def case(self, number):
         """The scene's file and all values of one case by path, including those that the study sets for all. It reads
         only 8 bytes and one line, because a study may have millions of cases. Raises StudyError if the case is damaged
-        or there is none with this number."""
+        or there is none with this number, and FolderError if a file cannot be opened."""
         with files.open_regular(self.folder / INDEX) as index, files.open_regular(self.folder / CASES) as cases:
             index.seek(8 * number)
             offset = index.read(8)
@@ -134,8 +138,8 @@ def checksum_of(plan):
 
 
 def planned_folder(given):
-    """The folder of a study: `given` itself, or if that is a study's file studies/<name>, where it is planned by
-    default. The folder need not exist."""
+    """The folder of a study: `given` itself, or if that is a study's file studies/<name> in the working directory,
+    where it is planned by default. The folder need not exist."""
     path = pathlib.Path(given)
     if not path.is_file():
         return path
@@ -174,8 +178,8 @@ def list_of_numbers(numbers):
 
 
 def numbers_of_list(words, count, what):
-    """The numbers of a list such as "3,7-9,12", sorted and each once. Each must be below `count`. `what` names them in
-    messages. Raises StudyError (code 2) for another text."""
+    """The numbers of a list such as "3,7-9,12", as of --cases, sorted and each once. Each must be below `count`. `what`
+    names them in messages. Raises StudyError (code 2) for another text."""
     numbers = []
     for part in words.split(","):
         low, dash, high = part.partition("-")
