@@ -123,7 +123,8 @@ struct Begin<void, First, Rest...> {
 // Conversions between values of JSON and of records, by type. They need values of the right kind; RecordReader checks
 // them before.
 
-/// Returns the kind of a field whose value has the type T. A type that is none of those listed is a vector or point.
+/// Returns the kind of a field whose value has the type T. A type that is none of those listed is taken for a vector or
+/// point; one that is neither does not compile in value_of() or json_of().
 template <class T>
 constexpr FieldKind kind_of() {
   if (std::is_same_v<T, bool>) return FieldKind::kBoolean;
@@ -136,7 +137,9 @@ constexpr FieldKind kind_of() {
   return FieldKind::kVector;
 }
 
-/// Returns the value of a JSON value in SI units. `unit` is that of the key, and is converted for doubles only.
+/// Returns the value of a JSON value in SI units. `unit` is that of the key, and is converted for doubles and
+/// lists of doubles only; vectors and rings must be in SI units. The range of an integer field must exclude numbers
+/// that its type cannot hold.
 template <class T>
 T value_of(std::string_view unit, const JsonValue& json) {
   if constexpr (std::is_same_v<T, bool>) {
@@ -178,7 +181,8 @@ JsonValue json_of(std::string_view unit, const T& value) {
 namespace place {
 
 /// Completes a field by the functions that store its value in a record and return it. T is the type of the value at the
-/// end of `path`; `read` converts it from JSON and `write` to JSON. A field with a default takes it from a new Record.
+/// end of `path`; `read` converts it from JSON and `write` to JSON. A field with a default takes it from a new Record,
+/// in which a variant on the path is first made to hold the class of the path.
 template <class Record, class T, class Read, class Write, class... Path>
 FieldOf<Record> leaf(Field field, Read read, Write write, Path... path) {
   field.set = [read, path...](void* record, const JsonValue& json) {
@@ -248,7 +252,8 @@ auto object(std::string_view key, const Description<Part>& description, std::str
 }
 
 /// Makes a field with a list of objects, which are stored in a std::vector<Item> at the end of the path. `length` is
-/// the allowed number of items. If the list is not given it is empty.
+/// the allowed number of items. If the list is not given it is empty. An empty list is written as [], also if the path
+/// passes through an optional that holds nothing; only an item, when it is read, makes the optional hold its list.
 template <class Item, class... Path>
 auto list(std::string_view key, Range length, std::string_view meaning, const Description<Item>& items, Path... path) {
   using Record = typename place::Begin<void, Path...>::Record;
@@ -292,7 +297,8 @@ FieldOf<Record> required(FieldOf<Record> field) {
   field.presence = Presence::kRequired;
   return field;
 }
-/// If the field is not given, the reader of scenes computes its value from the whole scene, as for the time step.
+/// If the field is not given, the reader of scenes computes its value from the whole scene, as for the time step. The
+/// value that the record has then is written.
 template <class Record>
 FieldOf<Record> chosen(FieldOf<Record> field) {
   field.presence = Presence::kChosen;
@@ -312,7 +318,8 @@ FieldOf<Record> as(FieldKind kind, FieldOf<Record> field) {
   return field;
 }
 /// The field may be left out. The record's initial value means "left out": the field is not written while the record
-/// has it. For a number only; its range should exclude that value, such as 0 with above(0, 1000).
+/// has it, and tables show "left out" as its default. For a number only; its range should exclude that value, such as 0
+/// with above(0, 1000), because a user who gives it would not get it back.
 template <class Record>
 FieldOf<Record> left_out(FieldOf<Record> field) {
   field.presence = Presence::kLeftOut;

@@ -47,7 +47,8 @@ struct Length {
 /// of rings, of a ring and of a point. None for a kind that is not a list of numbers.
 std::span<const Length> lengths_of(FieldKind kind);
 
-/// Range of allowed numbers, in the unit of the key. The limits themselves are allowed unless they are excluded.
+/// Range of allowed numbers, in the unit of the key. The limits themselves are allowed unless they are excluded. Within
+/// any range the reader rejects numbers nearer to 0 than 1e-100 that are not 0.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -59,8 +60,8 @@ struct Range {
 enum class Presence {
   kDefault,   ///< the record's initial value applies if the field is not given, or if it is wrong
   kRequired,  ///< must be given, unless it belongs to another alternative (Field::alternative)
-  kLeftOut,   ///< may be left out; it is then not written either
-  kChosen,    ///< if it is not given, the reader of scenes computes it from the whole scene
+  kLeftOut,   ///< may be left out, and is then not written either; a wrong value makes the object unusable
+  kChosen,    ///< may be left out, and is then computed by the reader of scenes; a wrong value is as for kLeftOut
 };
 
 struct Object;
@@ -78,8 +79,11 @@ struct Field {
   std::vector<std::string_view> choices = {};  ///< allowed words of kChoice
   std::string_view alternative = {};           ///< alternative of the object to which the field belongs; empty: to all
   const Object* object = nullptr;              ///< fields of kObject, kList and kNumberOrLaw
-  JsonValue default_value = {};                ///< value in a new record; null for objects
-  std::function<void(void*, const JsonValue&)> set = {};  ///< stores a value, which has been checked, in the record
+  /// Value in a new record, in the unit of the key, for the schema, docs/scene.md and `polynya init`; null for objects.
+  /// The reader uses it only for a kName whose default ends with #, and replaces # by a number.
+  JsonValue default_value = {};
+  /// Stores a value, which has been checked, in the record, and converts it from the unit of the key to SI.
+  std::function<void(void*, const JsonValue&)> set = {};
   /// Returns the value in the record, in the unit of the key; nothing if the record does not hold it.
   std::function<std::optional<JsonValue>(const void*)> get = {};
   /// For reading: returns the record of the object, or adds an item to the list and returns its record. Empty for a
@@ -125,10 +129,10 @@ class RecordReader {
   explicit RecordReader(ProblemCollector& problems) : problems_(problems) {}
 
   /// Reads an object, `value`, into `record`, which must have its initial values. `path` is that of the object, for
-  /// messages. Returns false if `value` is no object, if no alternative or several are chosen, or if a field without a
-  /// default is missing or wrong; the record is then not to be used. Other wrong fields are reported and keep their
-  /// defaults. `number` replaces the # in a default name such as "ship-#". For lists that the record does not store,
-  /// only the list itself is checked, not its items.
+  /// messages. Returns false if `value` is no object, if no alternative or several are chosen, if a required field is
+  /// missing, or if a field without a default is wrong; the record is then not to be used. Other wrong fields are
+  /// reported and keep their defaults, and wrong items of lists are left out. `number` replaces the # in a default name
+  /// such as "ship-#". For lists that the record does not store, only the list itself is checked, not its items.
   template <class Record>
   bool read(const Description<Record>& description, const JsonValue& value, const std::string& path, Record& record,
             std::size_t number = 1) {
@@ -137,8 +141,9 @@ class RecordReader {
   }
 
  private:
-  // Each of these reports problems, and returns true if the value can be used. `leaf` reads a value that is not an
-  // object.
+  // Each of these reports problems, and returns true if the value can be used. `one_field` handles missing fields and
+  // calls `checked` for given ones, which calls the function for the kind of the field. `leaf` reads a value that is
+  // not an object.
   bool object(const Object& table, const JsonValue& value, const std::string& path, void* record, std::size_t number);
   bool one_field(const Field& field, const JsonValue& parent, const std::string& parent_path, void* record,
                  std::size_t number);
@@ -149,6 +154,7 @@ class RecordReader {
   void report_unknown_keys(const Object& table, const JsonValue& value, const std::string& path);
   bool choose_alternative(const Object& table, const JsonValue& value, const std::string& path,
                           std::string_view& chosen);
+  /// Reports a problem at an offset [bytes] in the scene, which is the first source (0) of the collector.
   void report(std::uint32_t offset, const std::string& path, std::string found, std::string allowed,
               std::string suggestion = {}) {
     problems_.report(0, offset, path, std::move(found), std::move(allowed), std::move(suggestion));
@@ -168,8 +174,9 @@ JsonValue write(const Description<Record>& description, const Record& record) {
   return write_object(description, &record);
 }
 
-/// Converts a number from the unit of its key to SI: "°…" to radians, "kN" to newtons, "MW" to watts. Numbers of all
-/// other units stay as they are, so a key with another prefixed unit needs its conversion here.
+/// Converts a number from the unit of its key to SI: every unit that begins with ° to radians (also "°/s"), "kN" to
+/// newtons, "MW" to watts. Numbers of all other units stay as they are, so a key with another prefixed unit, or one in
+/// °C, needs its conversion here.
 double to_si(std::string_view unit, double value);
 /// Converts back: returns the number with the fewest digits that to_si() converts to exactly this value, so that a
 /// scene is written with the numbers of its author (15 [°], not 14.999999999999998). If there is none, returns one

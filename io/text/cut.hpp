@@ -31,7 +31,7 @@ struct DiscTool {
   double sagitta = 0;
   geometry::Polygon polygon;  ///< the polygon that cuts
 };
-/// Several polygons that cut together, prepared for geometry::cut_by_polygons.
+/// Several polygons that cut as their union, prepared for geometry::cut_by_polygons. They may overlap.
 struct PolygonTool {
   std::vector<geometry::Polygon> polygons;
 };
@@ -56,7 +56,7 @@ struct CutOp {
   bool must_cut = false;
 };
 
-/// Values for cuts that do not state their own.
+/// Values for cuts that do not state their own. `must_cut` has none: it is false unless the cut states it.
 struct CutDefaults {
   Keep keep = Keep::kOutside;
   double sagitta = 0;  ///< largest distance between a circle and its polygon [m]; 0: default_sagitta() of the radius
@@ -82,9 +82,10 @@ double default_sagitta(double radius);
 Result<std::vector<double>> read_numbers(std::string_view text, std::size_t least, std::size_t most);
 
 /// Returns the cut of a kind from its numbers, as many as the kind needs: "disc" from x, y, radius [m]; "crack" from x,
-/// y [m] and angle [°]; "line" from x, y of one point and x, y of the other [m]. `sagitta` [m] is that of discs; 0:
-/// default_sagitta(). Fails if the radius is not above 0, if the circle is too small for the precision of its
-/// coordinates, or if the ends of the line are one point.
+/// y [m] and angle [°]; "line" from x, y of one point and x, y of the other [m]. The caller must check the kind and the
+/// number of numbers: an unknown kind is taken for "crack". `sagitta` [m] is for discs; 0: default_sagitta(). Fails if
+/// the radius is not above 0, if the circle is too small for the precision of its coordinates, or if the ends of the
+/// line are one point.
 ToolOutcome<CutOp> op_of_numbers(std::string_view kind, const std::vector<double>& numbers, double sagitta);
 /// Returns the cut along a path without points that repeat the point before. Fails if fewer than two points remain.
 ToolOutcome<LineTool> line_tool(std::vector<geometry::Point> path);
@@ -94,7 +95,8 @@ ToolOutcome<PolygonTool> polygon_tool(std::string text);
 /// Reads a JSON list of cuts (docs/cut.md):
 ///   [{"disc": [x, y, r], "sagitta_m": s}, {"crack": [x, y, angle_deg]}, {"line": [x0, y0, x1, y1], "snap_m": s},
 ///    {"polygon": GeoJSON}], each with an optional "keep" and "must_cut".
-/// The error begins with the number of the cut in the list, from 0: "[2]: disc: the radius is not > 0".
+/// The error begins with the number of the cut in the list, from 0: "[2]: disc: the radius is not > 0". A list without
+/// cuts is an error too.
 ToolOutcome<std::vector<CutOp>> read_cut_ops(const std::string& text, const CutDefaults& defaults);
 
 /// Reason why a polygon was refused, or why a floe could not be cut.
@@ -108,14 +110,14 @@ struct Rejection {
 struct RepairNote {
   std::string_view rule;    ///< the fill rule: "even-odd" or "non-zero"
   std::string defect;       ///< the fault that was repaired
-  double area_drawn = 0;    ///< Σ signed areas of the rings as given [m²]
+  double area_drawn = 0;    ///< magnitude of the sum of the signed areas of the rings as given [m²]
   double area_changed = 0;  ///< repaired − drawn [m²]
   std::size_t shapes = 0;   ///< number of polygons after the repair
 };
 
 /// One piece of a floe after all cuts.
 struct CutPiece {
-  std::int64_t floe_id = 0;  ///< new id, larger than those of all floes of the text
+  std::int64_t floe_id = 0;  ///< new id, larger than those of all floes of the text, also if the floe stayed whole
   /// Side of the last disc or polygon on which the piece lies; outside if there was none.
   geometry::Part part = geometry::Part::kOutside;
   double area = 0;  ///< [m²]
@@ -124,7 +126,7 @@ struct CutPiece {
 
 /// Result of all cuts for one floe. area_of_pieces + removed = area + rounding_defect.
 struct CutFloe {
-  std::int64_t floe_id = 0;  ///< id in the text, or the floe's number in the text if floes are numbered
+  std::int64_t floe_id = 0;  ///< id in the text, or the floe's number in the text, from 0, if floes are numbered
   std::size_t feature = 0;   ///< this and the next two say where the floe is in the text, as in FloeEntry
   std::size_t member = 0;
   std::size_t line = 0;
@@ -132,12 +134,13 @@ struct CutFloe {
   double area_of_pieces = 0;  ///< [m²]
   double removed = 0;         ///< area that was not kept, including slivers [m²]
   double area_slivers = 0;    ///< part of `removed` that was too narrow to survive the rounding of its vertices [m²]
-  int slivers = 0;
-  /// Number of pieces whose vertices, rounded to the nearest doubles, did not make a valid polygon.
+  int slivers = 0;            ///< number of such parts; cuts of every kind drop them
+  /// Number of pieces whose vertices, rounded to the nearest doubles, did not make a valid polygon. They were made
+  /// valid by rounding in another way.
   int snap_rounded = 0;
   double rounding_defect = 0;  ///< area that the rounding of vertices changed [m²]
-  /// Σ exact areas of the pieces of a cut + removed − piece that was cut, as a rational number, of the last cut for
-  /// which it is not 0; "0" unless there is a bug.
+  /// Σ exact areas of the pieces of a cut, before any is removed or rounded, − area of the piece that was cut [m²], as
+  /// a rational number, of the last cut for which it is not 0; "0" unless there is a bug.
   std::string exact_defect = "0";
   std::vector<CutPiece> pieces;
   /// Length of lines that separate nothing: they end inside the ice, or lead from hole to hole [m].
@@ -164,8 +167,9 @@ struct CutReport {
 /// Cuts every floe by all cuts in order, and returns the report, except for its `crs` and `place`. A polygon that is
 /// not valid is refused, or repaired if a rule is given. A piece that a cut does not meet stays whole. It counts as
 /// outside of a disc or polygon, so that Keep::kInside removes it. A piece that geometry fails to cut stays as it was
-/// before that cut, and the floe is reported as rejected. Consecutive lines and cracks without must_cut cut together,
-/// so that their order does not matter.
+/// before that cut, and the floe is reported as rejected. Consecutive lines and cracks without must_cut cut a floe
+/// together if one of them ends within the floe's bounding box, so that their order does not matter. The largest snap
+/// that one of them states then holds for all. If none ends there, they cut one after the other, as other cuts do.
 CutReport cut_floes(const std::vector<FloeEntry>& entries, std::vector<CutOp> ops,
                     std::optional<geometry::FillRule> repair_rule);
 

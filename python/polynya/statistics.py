@@ -85,6 +85,7 @@ def bootstrap(values, statistic, level=LEVEL, seed=0, count=RESAMPLES):
 
 
 def bootstrap_mean(values, level=LEVEL, seed=0, count=RESAMPLES):
+    """Mean with a percentile interval. It assumes no normal distribution, and reports show it beside Student's."""
     return bootstrap(values, lambda rows: rows.mean(axis=-1), level, seed, count)
 
 
@@ -137,22 +138,22 @@ def cases_needed(values, half_width, level=LEVEL):
 def gumbel_parameters(rows):
     """Location and scale of the Gumbel distribution of largest values for each row, by maximum likelihood. The scale β
     solves β = x̄ − Σ x e^(−x/β) / Σ e^(−x/β) [Johnson1995]. It is found by Newton's method for log β, starting from the
-    method of moments."""
+    method of moments. A row of equal values has no such scale: its results are NaN."""
     rows = numpy.atleast_2d(rows)
     low = rows.min(axis=1, keepdims=True)
     x = rows - low
     middle = x.mean(axis=1)
-    scale = numpy.maximum(x.std(axis=1) * math.sqrt(6) / math.pi, 1e-300)
-    for _ in range(100):
+    scale = numpy.maximum(x.std(axis=1) * math.sqrt(6) / math.pi, 1e-300)  # the first step must not divide by zero
+    for _ in range(100):  # far more steps than a row needs; a row that has not converged is not reported
         weights = numpy.exp(-x / scale[:, None])
         total = weights.sum(axis=1)
         first = (x * weights).sum(axis=1) / total
         second = (x * x * weights).sum(axis=1) / total
         miss = scale - middle + first
         slope = scale + (second - first * first) / scale  # derivative of the residual with respect to log β
-        change = numpy.clip(-miss / slope, -1, 1)
+        change = numpy.clip(-miss / slope, -1, 1)  # at most a factor e a step, so that a poor start does not diverge
         scale = scale * numpy.exp(change)
-        if numpy.all(numpy.abs(change) < 1e-12):
+        if numpy.all(numpy.abs(change) < 1e-12):  # relative change of the scale
             break
     location = -scale * numpy.log(numpy.exp(-x / scale[:, None]).mean(axis=1)) + low[:, 0]
     return location, scale
@@ -170,10 +171,13 @@ def parameters_of(name, rows):
     return numpy.column_stack(gumbel_parameters(rows) if name == "gumbel" else weibull_parameters(rows))
 
 
+# The distributions that can be fitted, with their two parameters. The functions of this file take every name except
+# "gumbel" for Weibull, so another distribution needs a branch in each of them.
 NAMES = {"gumbel": ("location", "scale"), "weibull": ("shape", "scale")}
 
 
 def exceedance_of(name, parameters, x):
+    """Probability of a value above x. `parameters` is the pair of NAMES."""
     first, second = parameters
     if name == "gumbel":
         return -special.expm1(-numpy.exp(-(x - first) / second))
@@ -181,6 +185,7 @@ def exceedance_of(name, parameters, x):
 
 
 def value_exceeded(name, parameters, probability):
+    """The value that is exceeded with this probability, the inverse of `exceedance_of`."""
     first, second = parameters
     if name == "gumbel":
         return first - second * numpy.log(-numpy.log1p(-probability))
@@ -188,7 +193,8 @@ def value_exceeded(name, parameters, probability):
 
 
 def distances(name, parameters, rows):
-    """Kolmogorov–Smirnov and Anderson–Darling distances of each row from its distribution."""
+    """Kolmogorov–Smirnov and Anderson–Darling distances of each row from its distribution. Probabilities are clipped
+    away from 0 and 1, so that their logarithms are finite."""
     ordered = numpy.sort(rows, axis=1)
     n = ordered.shape[1]
     above = exceedance_of(name, (parameters[:, :1], parameters[:, 1:]), ordered)
@@ -201,7 +207,9 @@ def distances(name, parameters, rows):
 
 
 def fit(name, values, level=LEVEL, seed=0, count=RESAMPLES):
-    """Fits a Gumbel or Weibull distribution to a sample of extremes, with bootstrap intervals and tests of the fit."""
+    """Fits a Gumbel or Weibull distribution to a sample of extremes, with bootstrap intervals and tests of the fit.
+    A resample of equal values, which is likely for 5 values and rare for more than 7, makes the limits of the intervals
+    NaN. Studies fit at least study.sample.LEAST_FIT values."""
     sample = sample_of(values, 5)
     if name not in NAMES:
         raise ValueError(f'found "{name}", allowed: {", ".join(NAMES)}')
@@ -214,6 +222,8 @@ def fit(name, values, level=LEVEL, seed=0, count=RESAMPLES):
     low, high = numpy.quantile(of_resamples, [(1 - level) / 2, (1 + level) / 2], axis=0)
     parameters = {key: Interval(float(own[0, k]), float(low[k]), float(high[k])) for k, key in enumerate(NAMES[name])}
     ks, ad = (float(distance[0]) for distance in distances(name, own, sample[None, :]))
+    # Samples of the fitted distribution for the p values. The other seed makes them independent of the resamples. The
+    # least probability is above 0, because the value that is never exceeded is infinite.
     simulated = value_exceeded(name, own[0], numpy.random.default_rng(seed + 1).uniform(1e-16, 1, (count, sample.size)))
     ks_of, ad_of = distances(name, parameters_of(name, simulated), simulated)
     return Fit(
@@ -228,8 +238,8 @@ def fit(name, values, level=LEVEL, seed=0, count=RESAMPLES):
 
 
 def level_interval(name, values, probability, level=LEVEL, seed=0, count=RESAMPLES):
-    """The value that is exceeded with this probability by the fit, with its bootstrap interval. Only the size of the
-    sample is checked; call it for samples that `fit` accepts."""
+    """The value that is exceeded with this probability by the fit, with its bootstrap interval. Neither the name nor
+    the range of the values is checked; call it for samples that `fit` accepts."""
     sample = sample_of(values, 5)
 
     def of(rows):

@@ -41,7 +41,7 @@ def loads_of_hulls(run, name):
 
 
 def poses(run, name):
-    """Times [s] and poses x, y [m], heading [rad] of a body: at the start of the run, then of each row of
+    """Times [s] and poses x, y [m], heading [rad] of a body in the world: at the start of the run, then of each row of
     forces.csv. Headings do not jump by 360°, so that they can be interpolated."""
     columns = run.force_columns
     own = columns["ship"] == name
@@ -68,7 +68,7 @@ def to_edges(points, ring):
     """Smallest distance from points to the edges of a ring, both n × 2 [m]."""
     start, way = ring, numpy.roll(ring, -1, axis=0) - ring
     off = points[:, None, :] - start[None, :, :]
-    length = numpy.maximum((way**2).sum(axis=1), 1e-300)
+    length = numpy.maximum((way**2).sum(axis=1), 1e-300)  # no division by 0 for an edge without length
     share = numpy.clip((off * way).sum(axis=2) / length, 0, 1)
     return float(numpy.sqrt(((off - share[:, :, None] * way) ** 2).sum(axis=2)).min())
 
@@ -79,7 +79,7 @@ def cross(a, b):
 
 
 def contains(ring, point):
-    """Returns True if a point lies inside a ring."""
+    """Returns True if a point lies inside a ring. The result for a point on the ring is arbitrary."""
     (x, y), following = ring.T, numpy.roll(ring, -1, axis=0)
     crosses = (y > point[1]) != (following[:, 1] > point[1])
     with numpy.errstate(divide="ignore", invalid="ignore"):
@@ -105,9 +105,10 @@ def ring_distance(one, other):
 
 def closest(run, body, ship):
     """Smallest distance between the waterlines of two bodies in the whole run [m]; 0 if they overlap. Poses are
-    compared in the order of a lower bound, the distance of the bodies minus the reaches of both hulls, until the bound
-    of the next pose is not below the smallest distance found."""
+    compared in the order of a lower bound, the distance of the bodies' origins minus the radii of both waterlines about
+    them, until the bound of the next pose is not below the smallest distance found."""
     (times, of_body), (of_times, of_ship) = poses(run, body), poses(run, ship)
+    # Rows of all bodies have the same times. A killed run may lack the last row of some of them.
     count = min(len(times), len(of_times))
     of_body, of_ship = refined(times[:count], of_body[:count], of_ship[:count])
     rings = [run.waterlines[name] for name in (body, ship)]
@@ -129,8 +130,9 @@ def met(run, body, ship):
 
 def encounters_of(run, body):
     """Encounters of a body with the other ships; None if the scene has no other ship. A hit is a stretch of successive
-    rows of forces.csv in which hulls press both the body and the other ship. A ship that touched the body without such
-    a row, for example because both motions are prescribed, counts as one hit."""
+    rows of forces.csv in which hulls press both the body and the other ship, if the two touched at any time. A row does
+    not tell which hull presses, so a third ship may contribute. A ship that touched the body without such a row, for
+    example because both motions are prescribed, counts as one hit."""
     ships = other_ships(run, body)
     if not ships:
         return None
@@ -150,8 +152,8 @@ def encounters_of(run, body):
 
 def beyond_gate(run, gates):
     """Time after gates.start for which a vertex of the waterline of any other ship was beyond the upstream gate, within
-    its width [s]. That ship breaks ice before it is counted there. Only frames are looked at: each counts for the time
-    until the next one."""
+    its width [s]. That ship breaks ice before it is counted there, of which cautions.py warns. Only frames are looked
+    at: each counts for the time until the next one."""
     upstream, _ = axes_over_time(run)
     steps = numpy.diff(run.times, append=run.times[-1:])
     number, seconds = run.ship_names.index(gates.body), 0.0

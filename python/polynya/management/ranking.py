@@ -1,8 +1,10 @@
 """Ranks patterns of ice management by the mean of a measure over fields of ice, with Student's intervals and tests of
-the differences.
+the differences. All measures that are ranked are the better the smaller they are: loads and sizes of floes.
 
 Patterns are compared field by field. A field is named by its seeds, and the same seeds give the same ice, so effects of
-a field that are the same for all patterns cancel in the differences. The values of a pattern are {field: value}."""
+a field that are the same for all patterns cancel in the differences. The values of a pattern are {field: value}, finite
+numbers; a field without a value is left out. The mean of a pattern is over all its fields, but differences, ratios and
+tests are over the fields that both patterns have."""
 from __future__ import annotations
 
 import dataclasses
@@ -11,7 +13,8 @@ import math
 from typing import Optional
 
 #: Probability with which an interval contains the true mean, and with which no test of a ranking finds a difference
-#: that does not exist [-]. Larger: wider intervals, and fewer significant differences.
+#: that does not exist [-]. Larger: wider intervals, and fewer significant differences. The columns of words.py with
+#: "95_percent" in their names state it too.
 LEVEL = 0.95
 
 
@@ -60,7 +63,7 @@ def difference(one, other):
 
 
 def share_left(managed, unmanaged):
-    """Returns the load with management divided by that without, as (ratio, low, high): the ratio of the means over
+    """Returns the measure with management divided by that without, as (ratio, low, high): the ratio of the means over
     common fields, with its interval by Fieller's theorem [Fieller1954]. Returns None if there is no common field or the
     mean without management is 0. The limits are None for fewer than two fields, or if the interval of the mean without
     management contains 0, because the ratio may then be arbitrarily large."""
@@ -76,7 +79,7 @@ def share_left(managed, unmanaged):
     both = math.fsum((x - a) * (y - b) for x, y in zip(top, low)) / (count - 1) / count
     # (a − ρ b)² = t² (s_aa − 2 ρ s_ab + ρ² s_bb) at both ends ρ of the interval
     square, middle, rest = b * b - t * of_b, a * b - t * both, a * a - t * of_a
-    root = middle * middle - square * rest
+    root = middle * middle - square * rest  # below 0 for square > 0 by rounding only
     if square <= 0 or root < 0:
         return ratio, None, None
     return ratio, (middle - math.sqrt(root)) / square, (middle + math.sqrt(root)) / square

@@ -11,7 +11,9 @@ from polynya.files import naming
 from .encoder import SAMPLES, Encoder
 from .picture import Picture
 
-WANTED = 30.0  # approximate duration of a film whose speed is not given [s]; longer films are slower and larger
+# Approximate duration of a film whose speed is not given [s]. A larger value makes films that show the run more slowly,
+# and that take more time and space for more pictures.
+WANTED = 30.0
 # Pictures per second of the film. GIFs have half as many, because each picture takes more space in them.
 RATES = {".mp4": 25.0, ".gif": 12.5}
 # Endings of file names: .mp4 and .gif for films, .png for a single picture.
@@ -28,9 +30,10 @@ def chosen_speed(seconds):
 
 def chosen_times(run, start=None, end=None, speed=None, rate=RATES[".mp4"]):
     """Times of the pictures [s], evenly from `start` to `end` of the run, both included. `start` and `end` are
-    simulated times [s]; without them the whole run is shown. `speed` is simulated seconds per second of the film, and
-    `rate` pictures per second of the film. There are at least two pictures. Raises ValueError if a time lies outside of
-    the run or `start` is not before `end`."""
+    simulated times [s]; without them the whole run is shown. `speed` (> 0) is simulated seconds per second of the film,
+    and `rate` pictures per second of the film. write() has the rates of RATES, so a GIF for which this rate is not that
+    of GIFs plays at another speed. There are at least two pictures; their number is rounded, so the speed of short
+    films deviates a little. Raises ValueError if a time lies outside of the run or `start` is not before `end`."""
     start = run.start_time if start is None else start
     end = run.end_time if end is None else end
     for name, time in (("from", start), ("to", end)):
@@ -57,7 +60,8 @@ def write(run, path, times, look, progress=None):
     if suffix == ".png":
         write_png(picture.draw(float(times[0])), path)
         return
-    # A GIF has one palette, which is chosen from pictures that are spread evenly over the film.
+    # A GIF has one palette, which is chosen from pictures that are spread evenly over the film. They are copied,
+    # because each draw() overwrites the picture before.
     samples = times[numpy.linspace(0, len(times) - 1, SAMPLES).astype(int)] if suffix == ".gif" else ()
     with Encoder(path, look.size, RATES[suffix], [picture.draw(float(time)).copy() for time in samples]) as encoder:
         for done, time in enumerate(times, 1):
@@ -69,7 +73,8 @@ def write(run, path, times, look, progress=None):
 
 
 def write_png(pixels, path):
-    """Writes a PNG, completely or not at all."""
+    """Writes rows × columns × 4 bytes (RGBA) as a PNG, completely or not at all. If `path` is a link, the file to which
+    it leads is replaced. Raises OSError with a file name if that fails."""
     from matplotlib import image
 
     path = os.path.realpath(path)

@@ -16,14 +16,15 @@ from . import ice_scenes
 # entered completely; the other 0.2 are a margin. Larger: less of the course (ice_scenes.LENGTHS) is measured, so that
 # the scatter grows. Smaller than 1: the resistance is too small, because part of the hull is in open water.
 FULL = 1.2
-# Ranges that docs/validation.md compares with measurements, by regime and name of a point's value (lowest, highest). A
-# name that is missing has no limit. Points outside are marked in tables and JSON; they are computed in the same way.
-# "Pack ice": floes of 15 m, 0.5 m thick, at 1 m/s, covers from 0.3 to 0.9. "A ship in level ice": up to 0.5 m.
+# Ranges in which docs/validation.md supports the resistance by comparing it with published formulas, by regime and name
+# of a point's value (lowest, highest). A name that is missing has no limit. Points outside are marked in tables and
+# JSON; they are computed in the same way. Chapter "Pack ice": floes of 15 m, 0.5 m thick, at 1 m/s, covers from 0.3 to
+# 0.9. Chapter "A ship in level ice": up to 0.5 m (there only up to 2 m/s, which is not a limit here).
 VALIDATED = {
     ice_scenes.PACK: {"speed_m_per_s": (1, 1), "thickness_m": (0.5, 0.5), "cover": (0.3, 0.9),
                       "floe_size_m": (15, 15)},
     ice_scenes.LEVEL: {"thickness_m": (0, 0.5)},
-    ice_scenes.CHANNEL: None,  # not compared with measurements: no point is in the range
+    ice_scenes.CHANNEL: None,  # no point is in the range: the only comparison is with the ice class rules' formula
 }
 
 
@@ -35,15 +36,16 @@ def points_of(speeds, thicknesses, covers, sizes):
 
 
 def is_validated(regime, point):
-    """Returns True if the point lies in the range that was compared with measurements."""
+    """Returns True if the point lies in the range of VALIDATED, limits included."""
     ranges = VALIDATED[regime]
     return ranges is not None and all(low <= point[name] <= high for name, (low, high) in ranges.items())
 
 
 def measured(folder, ship):
-    """Returns two mean resistances of a run [N]: by contacts with ice around the hull, and by ice under the hull. They
-    are means over the rows of forces.csv in which the stem is more than FULL ship lengths behind the edge of the ice
-    (x = 0) and has more than 0.05 ship lengths to its end."""
+    """Returns two mean resistances of a run [N], positive against the motion: by contacts with ice around the hull, and
+    by ice under the hull, which the first does not contain. They are means over the rows of forces.csv in which the
+    stem is more than FULL ship lengths behind the edge of the ice (x = 0) and has more than 0.05 ship lengths to its
+    end, where ice in front of the stem would break out. NaN if there is no such row."""
     length = ship["hull"]["length_m"]
     (columns,) = rows_by_ship(pathlib.Path(folder) / "forces.csv").values()
     x, surge, submerged = (np.array(columns[name]) for name in ("x_m", "surge_N", "surge_from_submerged_ice_N"))
@@ -64,8 +66,9 @@ class Resistance:
         self.folder, self.program = pathlib.Path(folder), program
 
     def run(self, point, seed):
-        """Makes the run of a point with a seed, unless it is kept from before. Returns its resistances by contact and
-        by submersion [N]. Raises RunFailed if the run fails."""
+        """Makes the run of a point with a seed, unless it is kept from before. Its name has six digits of each value:
+        points that differ less share a folder, and each run replaces the other's. Returns the resistances by contact
+        and by submersion [N]. Raises RunFailed if the run fails."""
         ice = dataclasses.replace(self.ice, thickness=point["thickness_m"])
         made = ice_scenes.scene(self.regime, self.ship, ice, point, seed, self.step)
         name = "-".join([self.regime, *(f"{value:g}" for value in point.values()), str(seed)])
@@ -84,7 +87,7 @@ class Resistance:
     def rows(self, points, jobs, report):
         """Makes the runs of all points, `jobs` at a time, and returns the rows in the order of the points. `report` is
         called with the number of finished runs and their total. An error or Ctrl-C cancels the runs that have not
-        started and is raised again."""
+        started, and is raised again when those that have started are over."""
         wanted = [(i, seed) for i in range(len(points)) for seed in range(1, self.seeds + 1)]
         found = {}
         with concurrent.futures.ThreadPoolExecutor(max(1, jobs)) as pool:

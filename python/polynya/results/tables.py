@@ -47,8 +47,8 @@ def table(columns, pandas=None):
 def column(name, cells, path):
     """Converts the cells of a column, which are texts, to an array. Its type follows from its name
     (docs/run-folder.md): texts for WORDS, integers for WHOLE (NONE for an absent one), truth values for names that
-    begin with is_ or has_, and otherwise numbers (NaN for an absent one). Raises FolderError with the line of a wrong
-    cell."""
+    begin with is_ or has_ (True for 1, otherwise False), and otherwise numbers (NaN for an absent one). An absent
+    number is an empty cell or `null`. Raises FolderError with the line of a wrong cell."""
     if name in WORDS:
         return numpy.array(cells, dtype=object)
     values = numpy.array(files.numbers(cells, path, name), dtype=float)
@@ -62,7 +62,8 @@ def column(name, cells, path):
 
 
 def read_csv(path):
-    """Columns of a run's table by name, with the numbers exactly as in the file."""
+    """Columns of a run's table by name, with the numbers as in the file: in its units, and not rounded. A last line
+    that a killed run left incomplete is ignored. To access a missing column raises FolderError."""
     return files.Columns({name: column(name, cells, path) for name, cells in files.read_cells(path).items()}, path)
 
 
@@ -74,7 +75,8 @@ FIRST = {"t_s": float, "kind": str, "ship": str, "by_ship": str, "floe": int, "p
 
 def flattened(event):
     """Members of an event in one row. Point, normal and offset become coordinates; members of the criterion keep their
-    names, and its rule becomes `criterion`."""
+    names, and its rule becomes `criterion`. Of two members that get the same name the later one remains, so the names
+    of a criterion must differ from those of events."""
     row = {}
     for key, value in event.items():
         if key == "point_m":
@@ -91,8 +93,9 @@ def flattened(event):
 
 
 def event_columns(events):
-    """Columns of the events of events.ndjson, {name: array}, with a row for each event. An event that lacks a member
-    has NONE for a floe, NaN for a number, False for a truth value, and an empty text or tuple."""
+    """Columns of the events of events.ndjson, {name: array}, with a row for each event. An event that lacks a member,
+    or has null for it, has NONE for a floe, NaN for a number, False for a truth value, and an empty text or tuple. The
+    type of a column that is not in FIRST is that of its first value: truth value, text, or otherwise number."""
     rows = [flattened(event) for event in events]
     kinds = dict(FIRST)
     kinds.update({name: float for name in ("x_m", "y_m", "normal_x", "normal_y")})

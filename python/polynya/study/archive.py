@@ -1,5 +1,6 @@
 """Packs chunks of cases into one file each, because a cluster's file system is slow with millions of small files. A
-study with `"archive": true` does so. An archive is a tar file with the results of its cases and their folders."""
+study with `"archive": true` does so. An archive is a tar file with the results of its cases and their folders. It is
+not compressed, so that its first member can be read without the rest."""
 import io
 import json
 import os
@@ -17,8 +18,9 @@ ROWS = "results.ndjson"
 
 def pack(study, chunk):
     """Packs a chunk whose cases have all finished or failed, and removes its folders. Returns True if the chunk is
-    packed afterwards, and False if one of its cases has not ended. If two processes pack the same chunk, the archive of
-    the first is kept. Raises OSError if the archive cannot be written; the folders then stay."""
+    packed afterwards, and False if one of its cases has not ended. Each `polynya study run` calls it at its end for the
+    chunks of its cases. If two processes pack the same chunk, the archive of the first is kept. Raises OSError if the
+    archive cannot be written, also on a file system without hard links; the folders then stay."""
     if study.archive(chunk).exists():
         remove_folders(study, chunk)  # a killed process may have left folders
         return True
@@ -58,7 +60,9 @@ def write_archive(study, chunk, draft, results):
 
 def unpack(study, chunk):
     """Restores the folders of an archive, so that its cases can run again, and removes the archive. They are extracted
-    to a draft folder first. A kill on the way therefore leaves the archive or all folders."""
+    to a draft folder first. A kill on the way therefore leaves the archive or all folders, and perhaps the draft. There
+    is no lock: no other process may run cases of the chunk or pack it meanwhile. Archives are trusted: their members
+    are not checked."""
     home = study.chunk_folder(chunk) if study.chunk_size > 1 else study.folder / "cases"
     remove_folders(study, chunk)
     draft = study.archive(chunk).with_suffix(f".{os.getpid()}.tmp")
@@ -78,8 +82,9 @@ def chunks_of(study, numbers):
 
 
 def unpack_to_run(study, numbers, keep, retries_failed):
-    """Unpacks those chunks of the cases `numbers` that must run again: all if `keep` is "all" and the study kept only
-    summaries, because their run folders are gone; otherwise those with a failed case, if `retries_failed` is true."""
+    """Unpacks those chunks of the cases `numbers` that must run again: all if `keep` (the option --keep of the command)
+    is "all" and the study kept only summaries, because their run folders are gone; otherwise those with a failed case,
+    if `retries_failed` (--retry-failed) is true. The other cases of such a chunk are unpacked with it."""
     is_thinned = keep == "all" and study.plan["keep"] == "summary"
     for chunk in chunks_of(study, numbers) if is_thinned or retries_failed else []:
         if not study.archive(chunk).exists():
