@@ -9,11 +9,13 @@ namespace polynya::simulation {
 ///
 /// 1. It divides the intervals record.forces_interval and record.frames_interval into whole numbers of ticks.
 /// 2. No hull at full speed needs more than a quarter of kMostParts parts (parts.hpp) in 95 % of the ice by area, with
-///    the speeds of drift, wind drift and floes added. Full speed is the speed at the start, or with an engine the
-///    open-water speed if that is larger; under a constant thrust it is at least 4 m/s. With the law of impulses, which
+///    the largest speeds of drift, wind drift and floes added. Full speed is the speed at the start, or with an engine
+///    the open-water speed if that is larger; under a constant thrust it is at least 4 m/s. That of a pressing wall is
+///    its closing speed. A scene without hulls is treated like one with a hull at rest. With the law of impulses, which
 ///    has no parts, a hull stays within allowed_displacement() of that ice in a tick.
 /// 3. No floe at its initial speed moves farther in a tick than that displacement, and no point of its rim farther than
-///    kDisplacementOverRadius times the radius of contact circles, a quarter of it.
+///    kDisplacementOverRadius times ContactSettings::circle_radius, a quarter of it. The drift of other ice is added to
+///    the speed of fast ice.
 ///
 /// If no number of the list satisfies all three, the first condition is ignored; if none satisfies the other two, the
 /// tick is the smallest number. The tick does not depend on the end of the run, so that a run that is ended early and

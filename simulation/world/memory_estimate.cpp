@@ -32,9 +32,10 @@ double heap_of(const Polygon& polygon) {
          block(sizeof(Ring) * static_cast<double>(polygon.holes.size()));
 }
 
-/// Memory of one body in the columns of dynamics::Bodies [bytes]: 16 numbers, 2 vectors, the drag span, 3 flags of one
-/// byte, and the pointers to its boundary and its drag shape. If a column is added there, this sum must be changed too;
-/// no assertion compares them.
+/// Memory of one body in the columns of dynamics::Bodies [bytes]: 12 single numbers, 4 pairs of numbers (position,
+/// centroid, velocity and rotation), of which two are written as numbers here, the drag span, 3 values of one byte, and
+/// the pointers to its boundary and its drag shape. If a column is added there, this sum must be changed too; no
+/// assertion compares them.
 constexpr double kColumns = 16 * sizeof(double) + 2 * sizeof(geometry::Vector) + sizeof(dynamics::DragSpan) + 3 +
                             2 * sizeof(std::shared_ptr<geometry::Boundary>);
 
@@ -105,7 +106,8 @@ constexpr double kOverheadFactor = 1.2;
 }  // namespace
 
 // In at_start, only floes that move at the start have a drag shape. Floes that wind sets in motion later are left out,
-// so at_start remains a lower bound. Covers and pairs count only in all_moving.
+// so at_start remains a lower bound. Covers and pairs count only in all_moving. Both leave out hulls and all other data
+// that do not grow with the floes.
 MemoryEstimate estimate_memory(const Scene& scene) {
   MemoryEstimate estimate;
   const double drag = block(sizeof(dynamics::DragShape));

@@ -63,15 +63,18 @@ inline constexpr double kWeightOfLastTick = 0.125;
 double allowed_displacement(const ContactSettings& contact, double thickness);
 
 /// Returns the number of equal parts of the next tick, from 1 to kMostParts. It is the smallest number with which every
-/// hull stays within kToleratedExcess times allowed_displacement() relative to the ice that it may reach in the tick,
-/// and with which steps are no longer than Setup::longest_step_by_walls. This number is multiplied by Pace::finer, the
-/// factor that many bends have raised. The product is limited to kMostParts; steps may then be longer than these
-/// limits.
+/// hull stays within kToleratedExcess times allowed_displacement() relative to each body of ice that it may reach in
+/// the tick, and with which steps are no longer than Setup::longest_step_by_walls. Displacements follow from the
+/// velocities of the centres of mass; rotation only extends what a hull may reach. This number is multiplied by
+/// Pace::finer, the factor that many bends have raised. The product is limited to kMostParts; steps may then be longer
+/// than these limits.
 int parts_of_tick(const Setup& setup, const Pace& pace, const Population& population);
 
 /// Updates the pace, by which the parts of the next ticks are chosen, after a tick with the given numbers of parts and
-/// of bends. Returns true if the mean number of bends in a step exceeds kCrowdedBends although the tick had the largest
-/// number of parts; the caller counts such ticks.
+/// of bends. If it doubles or halves Pace::finer, it halves or doubles the running mean, Pace::bends, to the value that
+/// the new parts are expected to have. It does not raise the factor after a tick of kMostParts parts, so the factor is
+/// at most kMostParts. Saved states contain the pace. Returns true if the mean number of bends in a step exceeds
+/// kCrowdedBends although the tick had the largest number of parts; the caller counts such ticks.
 bool follow_bends(int parts, std::int64_t bends, Pace& pace);
 
 }  // namespace polynya::simulation

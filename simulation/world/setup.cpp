@@ -28,10 +28,11 @@ std::unique_ptr<const fracture::BendingModel> make_bending_model(const FractureS
 }
 
 /// Returns the limits of all kinds of ice of a scene (IceLimits): first of Scene::ice, then of each Scene::own_ice. κ
-/// l, the √area below which a floe does not break, follows from Eq. (7) of [Sawamura2017]. The least splitting force is
-/// that of a crack as long and as wide as the ice is thick: the force grows with the size of the crack, so a smaller
-/// force splits no floe, and no crack is searched for it, which saves time. The last member tells whether slender floes
-/// below κ l break across as beams.
+/// l, the √area below which a floe neither bends nor splits, follows from Eq. (7) of [Sawamura2017]. The least
+/// splitting force is that of a crack as long and as wide as the ice is thick: the force grows with the size of the
+/// crack, so a smaller force splits no floe, and no crack is searched for it, which saves time. The last member tells
+/// whether slender floes below κ l may break across as beams. If κ l exceeds the characteristic length, such floes are
+/// only pushed.
 std::vector<IceLimits> limits_of(const Scene& scene) {
   const auto limits = [&](const fracture::Ice& ice) -> IceLimits {
     const double breakable = scene.fracture.breakable_size_factor *
@@ -59,10 +60,11 @@ Setup::Setup(Scene scene_of_run, Shortcuts shortcuts_of_run)
   }
   for (const Ship& ship : scene.ships) sailing.push_back(sailing_of(ship, scene.water.water.density));
   const ContactSettings& contact = scene.contact;
-  // The law of crushing sets the last two members of ContactRule: presses_prescribed, by which a hull presses ice even
-  // if the motions of both are prescribed, and is_depth_bounded. It also takes the solver tolerance of the scene; the
-  // law of impulses keeps that of SolverSettings. Only with this law a hull carries the water pressure that is missing
-  // on a turning cusp until water has flowed onto its deck, if the scene asks for it.
+  // The law of crushing sets two members of ContactRule: presses_prescribed, by which a hull presses ice even if the
+  // motions of both are prescribed, and is_depth_bounded, which determines the depth of an overlap. It also takes the
+  // solver tolerance of the scene; the law of impulses keeps that of SolverSettings. Only with this law a hull carries
+  // the water pressure that is missing on a turning cusp until water has flowed onto the cusp, if the scene asks for
+  // that.
   const bool crushes = contact.law == ContactLaw::kCrush;
   contact_rule = {contact.circle_radius, contact.normal == ContactNormal::kCircleCentres, shortcuts.culls, crushes,
                   crushes};

@@ -42,8 +42,8 @@ function hasGone(run, motions, ship, carry) {
   return Math.hypot(x - bx, y - by) > 1;
 }
 
-/** Poses of a ship [x, y, heading, time] at all frames before the present time, and at that time; none if the run has
- * no frames. */
+/** Poses of a ship [x, y, heading, time] at all frames before a time, and at that time; none if the run has no frames.
+ * `motions` must be set to the same time. */
 function posesUpTo(run, motions, ship, time) {
   const { times } = run.frames;
   const poses = [];
@@ -119,7 +119,8 @@ function widthWords(stations) {
   return `${mean.toFixed(1)} m wide, ${(mean / stations[0].beam).toFixed(2)} beams`;
 }
 
-/** Draws the rectangle from ice to ice at each station. Stations outside the visible part of the map are skipped. */
+/** Draws the rectangle from ice to ice at each station. Stations outside the visible part of the map are skipped; the
+ * disc that is tested for this is larger than the rectangle. */
 function drawStations(context, view, stations, colours) {
   context.beginPath();
   for (const { x, y, fx, fy, length, port, starboard } of stations) {

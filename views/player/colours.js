@@ -35,11 +35,12 @@ function breakagesOf({ floes, info, breakOf }) {
   return of;
 }
 
-// The colours of the classes, in the order of the classes: one more than a colouring has limits. Each ramp has even
-// steps of lightness and none has the lightness of the water, so that colours can be distinguished in greyscale and by
+// The colours of the classes, in the order of the classes: one more than a colouring has limits. Along a ramp lightness
+// changes in one direction, in steps of 5 to 29 of 100, so that colours can be distinguished in greyscale and by
 // colour-blind users. Ramps go from light to dark, but sizes from dark to light. The last colour of `breakage`, of ice
-// that surfaced, is outside of its ramp. No test checks this. Marks, whose colours are in player.css, use the Okabe–Ito
-// palette.
+// that surfaced, is outside of its ramp. No colour has the lightness of the water in the light theme; in the dark theme
+// the darkest colours of `speed` and `size` are close to it. No test checks this. The colours of marks are in
+// player.css; in the light theme those of bends, splits and ice under hulls are from the Okabe–Ito palette.
 
 const ramps = {
   breakage: ["#ffffff", "#f6e3a8", "#dd9a45", "#8f4a1c", "#edc7dd"],
@@ -60,8 +61,8 @@ function mixedColour(colour, other, part) {
 const shipColour = (colours, ship) => colours[`ship-${ship % 5}`];
 
 /** The five largest of 1, 2, 5 × 10ⁿ below a value in ascending order: the limits of six classes. They are at most
- * 0.999 of the value, so that the highest class is not empty. The value must be positive, otherwise the limits are 0 or
- * no numbers. */
+ * 0.999 of the value, because a limit equal to it would leave only the largest value in the highest class. The value
+ * must be positive, otherwise the limits are 0 or no numbers. */
 function roundEdges(largest) {
   const edges = [];
   let edge = roundBelow(largest * 0.999);

@@ -24,7 +24,7 @@ function goToMomentOfPair([first, second], link) {
  * which are replaced by the run's data in this page. The data are removed from this page, to save memory. `labels` are
  * the names that the players show for the runs, `axis_s` is the range of times that the axes of both show, from the
  * earlier start to the later end [s]. The character `<` is escaped in the options, because a name could otherwise end
- * the script element that contains them. */
+ * the script element that contains them. In the data it has been escaped when the page was written. */
 function pageOfRun(template, { labels, axis_s }, k) {
   const take = (id) => {
     const text = byId(id).textContent;
@@ -51,7 +51,8 @@ function openPlayers() {
 }
 
 /** Makes the common clock, which replaces the clocks of both players: their controls and keys act on it. A run that
- * ends earlier stays at its end, because its own clock does not go beyond it; with `isOver` its map shows a notice.
+ * ends earlier stays at its end, because its own clock does not go beyond it; with `isOver` its map shows a notice. A
+ * run that begins later waits at its beginning, without a notice.
  * Each player also gets the speed of playback, which determines for how much time ahead its map draws the ice at rest
  * as one picture (makeIcePicture()). */
 function makePairClock(players) {
@@ -70,7 +71,7 @@ function makePairClock(players) {
 /** Applies the settings of another player's plots. The `quantity` of the first plot and its `hidden` kinds of curves
  * are applied only if this run has that quantity. `isFull` chooses the scale up to the largest value instead of the
  * scale without spikes, `span` is the visible part of the run [s], and `further` lists the quantities of the plots
- * below. */
+ * below, of which those that this run lacks are left out. */
 function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, span, further }) {
   if (Object.hasOwn(plot.quantities, quantity) && (plot.quantity !== quantity
     || [...plot.hidden].join() !== hidden.join())) {
@@ -86,7 +87,8 @@ function showPlotAs({ plot, plotPanel, actions }, { quantity, hidden, isFull, sp
 /** Settings that both players share: `of` reads one from a player, `give` applies it to another. A setting is shared
  * while `isOn` returns true, or always without it. Changes that are made while `isOn` returns false are not shared
  * later. While a player follows a ship, only the scale of its map is shared, because the ship determines the centre.
- * Each player keeps its own selection of floe, ship and event, and its own ruler. */
+ * Ships are followed by their number in the scene; a run with fewer ships ignores a number that it lacks. Each player
+ * keeps its own selection of floe, ship and event, and its own ruler. */
 const common = {
   colours: { of: ({ state }) => state.colourBy, give: ({ actions }, by) => actions.colourBy(by) },
   layers: { of: ({ state }) => state.layers, give: ({ actions }, layers) =>
@@ -139,7 +141,7 @@ function makeCommon(players) {
 /** Gives both players the same extent of the map, which contains both runs, the same scales of arrows (the smaller one
  * of both) and the same classes of colours, up to the larger extremes. Then the same length or colour means the same in
  * both. The plots share a scale, which contains the ranges of both, only while they show the same quantity and the
- * check box for it is on. */
+ * check box for it is on. Plots call `widened` with the range [low, high] of each axis, by the name of its scale. */
 function joinScales(players) {
   const scales = Object.fromEntries(["forceScale", "arrowScale"].map((name) =>
     [name, Math.min(...players.map((player) => player[name]))]));
@@ -164,7 +166,8 @@ function joinScales(players) {
 }
 
 /** Moves to the next (`step` 1) or previous (−1) event of either run that has a mark on the timeline, seen from the
- * present time, and selects it in its run. If both runs have events at that time, only that of the first is reached. */
+ * present time, and selects it in its run. Of several events at the same time, in one run or in both, only one is
+ * reached; if both runs have one, it is an event of the first. */
 function stepEvent(players, clock, step) {
   const found = players.map(({ actions, run }) => {
     const index = actions.eventFrom(clock.time, step);

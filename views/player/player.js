@@ -7,10 +7,10 @@ const eventCounts = { bends: "bend", splits: "split", ground: "grind", "rejected
   "went under": "submerge", "came up": "resurface", "stayed under": "stay_under", "moorings broken": "mooring_break" };
 
 /** Fills the panel of facts, which do not change with time. A page that was written with `--area`, `--every`, `--from`
- * or `--until` contains only a part of the floes or frames: it shows both numbers, such as "20 of 300". With `--area`
- * it counts only the events of its floes. Kinds of events that did not occur are left out, except bends and splits of a
- * scene that has run. If ice went under hulls, two rows with the numbers at the present time stand above
- * (showCountsUnderHulls()). */
+ * or `--until` contains only a part of the floes or frames: it shows both numbers, such as "20 of 300". Events are
+ * counted over the whole run, also with `--from` or `--until`, but with `--area` only those of the page's floes. Kinds
+ * of events that did not occur are left out, except bends and splits of a scene that has run. If ice went under hulls,
+ * two rows with the numbers at the present time stand above (showCountsUnderHulls()). */
 function fillFacts({ run: { info, floes }, name, plan }) {
   const ofRun = (held, all) => (held === all ? held : `${held} of ${all}`);
   const counts = Object.entries(eventCounts).map(([words, kind]) =>
@@ -123,9 +123,10 @@ function startDrawing(player, canvases) {
 
 /** Reads the run, and adds data that several parts use. `breakOf` has, for each floe that ended, the index of the event
  * that ended it. The colours of the floe's pieces and its card depend on that event, so the events that do not end a
- * floe are left out: rejected cuts and going under a hull. `under` has the number of floes that went under hulls and
- * the times at which they surfaced, and `moorings` tells when moorings broke. `carry` moves points with the water from
- * one time to another (makeCarrier()), and `outline(floe)` gives the outline of a floe as a path for drawing. */
+ * floe are left out: rejected cuts and going under a hull, after which the floe lives until it surfaces or is found to
+ * stay under. `under` has the number of floes that went under hulls and the times at which they surfaced, and
+ * `moorings` tells when moorings broke. `carry` moves points with the water from one time to another (makeCarrier()),
+ * and `outline(floe)` gives the outline of a floe as a path for drawing. */
 function readPlayedRun(source) {
   const run = readRun(source);
   run.breakOf = new Map();
@@ -148,8 +149,8 @@ const readOptions = () => JSON.parse(byId("page-options").textContent);
  * nothing is chosen, for events null. `iceDirty` is set when all must be drawn again, `marksDirty` when only the marks
  * above the ice must. `sizes` is the range of floe sizes that is highlighted [m], `ruler` the measured line; both may
  * be null. `isFitted` is true while the map shows the whole run; it is then fitted again when the size of the map
- * changes. Of the layers, the channel is shown if a ship that is not moored moves through the water, the ice at the
- * start if one moves over ground. */
+ * changes. Of the layers, the channel is shown if a ship or structure that is not moored moves through the water, the
+ * ice at the start if one moves over ground. A fixed structure moves through water that drifts. */
 function firstState(run, motions, range) {
   const isUnderWay = (carry) => run.frames.times.length > 0 && run.info.ships.some(({ is_moored: isMoored }, ship) =>
     !isMoored && hasGone(run, motions, ship, carry));
@@ -187,7 +188,8 @@ function makePlayer(canvases, source) {
     // the highest class of colours begins. Longer arrows would hide more of the ice.
     forceScale: 40 / (typicalForce(run) || 1), // [px/N]
     arrowScale: 40 / (colourings.speed.edges.at(-1) || 1), // [px/(m/s)]
-    /** Sets the classes of colours for other extremes, such as those of another run. */
+    /** Sets the classes of colours for other extremes, such as those of two runs. The scales of arrows stay as they
+     * are: joinScales() in pair.js sets common ones. */
     colourUpTo: (most) => Object.assign(colourings, makeColourings(run, places, most)),
     stations: (ship) => stationsOf(run, ship, state.time),
     contacts: () => contactsOfFrame(run, motions.frame), valueWords, rulerWords,

@@ -5,14 +5,15 @@
 const mostKeptPoints = 4e6;
 
 /**
- * Returns a function that gives the points [x, y, ...] of a floe in its body frame [m], ring after ring. Coordinates in
- * the body frame are those that the floe's oldest ancestor had in the scene, so callers subtract the centroid (`cx`,
- * `cy`) before they place a shape. The rings of a floe are those from rings_of[floe] to before rings_of[floe + 1]; each
- * ends before the point ring_ends[ring], counted from the floe's first point. The page contains shapes as floes.ndjson
- * does (docs/run-folder.md): whole, or in parts, in the order of the floe's points. A part is `part_count` points of
- * `part_floe` from the point `part_first`: of the parent's ring `part_ring`, where it may wrap around from the ring's
- * end to its start, or, if `part_ring` is negative, of the floe's own new points in points_m, which has the points that
- * are not a parent's, floe after floe. Parts must be sorted by floe, because they are searched by bisection.
+ * Returns a function that gives the points [x, y, ...] of a floe in its body frame [m], ring after ring, the outer ring
+ * first. Coordinates in the body frame are those that the floe's oldest ancestor had in the scene, so callers subtract
+ * the centroid (`cx`, `cy`) before they place a shape. The rings of a floe are those from rings_of[floe] to before
+ * rings_of[floe + 1]; each ends before the point ring_ends[ring], counted from the floe's first point. As in
+ * floes.ndjson (docs/run-folder.md), shapes are whole, or in parts, in the order of the floe's points. A part is
+ * `part_count` points of `part_floe` from the point `part_first`: of the parent's ring `part_ring`, where it may wrap
+ * around from the ring's end to its start, or, if `part_ring` is negative, of the floe's own new points in points_m,
+ * which has the points that are not a parent's, floe after floe. Parts must be sorted by floe, because bisection finds
+ * them.
  * Floes are numbered by the ids of the run, also on a page of an area; a parent has a smaller id than its pieces.
  * Shapes in parts are assembled when they are needed and then kept.
  */
@@ -148,7 +149,8 @@ function readFloes(columns) {
 
 /** Reads frames.bin (docs/run-folder.md) and sorts its records by floe. The file has a header of 16 bytes. A frame has
  * four 32-bit words ("FRAM", the numbers of ships and floes, and 0), its time, six doubles per ship, and for each floe
- * its id as a 64-bit integer, of which the lower 32 bits are read, and six doubles. A page contains whole frames only.
+ * its id as a 64-bit integer, of which the lower 32 bits are read, and six doubles. All numbers are little-endian, as
+ * typed arrays are on computers with a usual browser. A page contains whole frames only.
  * A frame contains only the floes that do not move as their last record predicts. Of the result, `times` are the times
  * of the frames [s], and `shipAt` is the index in `doubles` of the first ship of each frame. The records of a floe are
  * those from recordsOf[floe] to before recordsOf[floe + 1], in ascending order of time: `recordFrame` is the frame of
@@ -186,9 +188,9 @@ function readFrames(bytes, floeCount, shipCount) {
   return { times: Float64Array.from(times), shipAt, shipCount, doubles, recordsOf, recordFrame, recordAt };
 }
 
-/** Rows of forces.csv for each ship, which its card and the plots show: the time `force_t_s`, and the columns that the
- * lists `force_columns` and `force_causes` of `info` name, which player_data.cpp makes with their labels and units. A
- * page that was written with `--from` or `--until` has only the rows of that time. */
+/** Rows of forces.csv for each ship in the order of time, which its card and the plots show: the time `force_t_s`, and
+ * the columns that the lists `force_columns` and `force_causes` of `info` name, which player_data.cpp makes with their
+ * labels and units. A page that was written with `--from` or `--until` has only the rows of that time. */
 function readForces(info, columns) {
   const named = [...info.force_columns.map(({ name }) => name), ...info.force_causes.map(({ column }) => column)];
   return info.ships.map((_, ship) => {

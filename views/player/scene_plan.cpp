@@ -51,11 +51,12 @@ void write_routes(io::JsonWriter& json, const simulation::Scene& scene) {
 
 }  // namespace
 
-// The page draws the routes and the wind at the start of the scene; a wind that changes later is not shown. It lists
-// the warnings and hints that were found while reading the scene, and marks on the map those with a position (plan.js).
-// There are no errors among them, because a scene with errors is not loaded. `words` is the message of a problem
-// without its place in the file, which `line` (0 if it is not known) and `path` give. With `--watch` the page reloads
-// itself when the newest stamp, in the script `stamp_file`, differs from its own.
+// The page draws the routes and the wind at the start of the scene; a wind that changes later is not shown. The vector
+// `wind_m_per_s` is the velocity of the air over ground. The page lists the warnings and hints that were found while
+// reading the scene, and marks on the map those with a position (plan.js). There are no errors among them, because a
+// scene with errors is not loaded. `words` is the message of a problem without its place in the file, which `line` (0
+// if it is not known) and `path` give. With `--watch` the page reloads itself when the newest stamp, in the script
+// `stamp_file`, differs from its own `stamp`. Without `--watch`, `stamp_file` is empty and the page stays as it is.
 std::string scene_plan(const io::LoadedScene& scene, const std::string& stamp, const std::string& stamp_file) {
   std::string text;
   io::JsonWriter json(text);
