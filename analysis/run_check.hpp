@@ -56,7 +56,7 @@ struct UncrushedOverlap {
   /// Accepted overlap beyond these: kUncrushedShare of the smaller body, and an allowance for one time step of relative
   /// motion and for the accuracy of frames [m²].
   double allowed = 0;
-  geometry::Point place_in_world;  ///< middle of the common part of the two bounding boxes [m]
+  geometry::Point place_in_world{};  ///< middle of the common part of the two bounding boxes [m]
 };
 
 /// Largest accepted ratio between the work that the crushed volume needs (σ_c V) and the recorded work, in either

@@ -25,8 +25,8 @@ inline constexpr double kEdgeTolerance = 0.0005;
 struct SourceFloe {
   geometry::Polygon polygon;  ///< rings as drawn in the file: in either direction, closed or open
   FloeProperties properties;
-  std::string refused = {};            ///< reason why it is refused; empty: it is not
-  std::optional<std::size_t> feature;  ///< number of the feature in the file to which the polygon belongs
+  std::string refused = {};                 ///< reason why it is refused; empty: it is not
+  std::optional<std::size_t> feature = {};  ///< number of the feature in the file to which the polygon belongs
   /// True if one of its edges lies on the meridian of longitude 180, where files divide floes; such parts may be
   /// joined again. Set only with PlaneSettings::marks_180.
   bool is_at_180 = false;

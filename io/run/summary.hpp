@@ -34,7 +34,7 @@ struct Peak {
 struct ShipPeaks {
   std::string ship;             ///< name of the hull
   std::vector<Peak> of_column;  ///< of each column of forces.csv that peak_columns() names, in its order and units
-  Peak of_contact;  ///< largest force of one contact with ice along its normal [N], of the peaks in contacts.csv
+  Peak of_contact{};  ///< largest force of one contact with ice along its normal [N], of the peaks in contacts.csv
 };
 
 /// Returns the number of fractures that progress and summaries show: bends and splits. Ground overlaps and refused cuts

@@ -386,10 +386,10 @@ TEST(SubmergedIce, TheSpeedFactorIsLindqvists) {
 // waves are 557 kN behind a bulb and a transom that take factors 0.7595 and 0.9592 off, which our hull does not have.
 TEST(OpenWater, ResistanceOfThePublishedExample) {
   const MainDimensions hull{205, 32, 10, 37500.0 / (205 * 32 * 10)};
-  constexpr double kKnot = 1852.0 / 3600, kDegree = std::numbers::pi / 180;
+  constexpr double kKnot = 1852.0 / 3600;
   const double published = 1e3 * (1005 + 222 + 557 / (0.7595 * 0.9592));
-  EXPECT_NEAR(open_water_resistance(hull, 12.08 * kDegree, 25 * kKnot, 1025).value() / published, 1, 0.06);
-  EXPECT_NEAR(usual_entrance_angle(hull).value() / (12.08 * kDegree), 1, 0.03);
+  EXPECT_NEAR(open_water_resistance(hull, 12.08 * shapes::kDegree, 25 * kKnot, 1025).value() / published, 1, 0.06);
+  EXPECT_NEAR(usual_entrance_angle(hull).value() / (12.08 * shapes::kDegree), 1, 0.03);
 }
 
 TEST(OpenWater, ASpeedOverThePowerItTakesGivesThatSpeed) {

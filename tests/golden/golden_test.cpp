@@ -95,7 +95,9 @@ void expect_goldens(std::string_view prefix, bool has_prefix) {
   }
   const auto wanted =
       std::ranges::count_if(goldens, [&](const auto& one) { return one.first.starts_with(prefix) == has_prefix; });
-  if (!renews) EXPECT_EQ(used, wanted) << "a golden without its scene";
+  if (!renews) {
+    EXPECT_EQ(used, wanted) << "a golden without its scene";
+  }
 }
 
 // Two cases, for two processors: the replicas of the paper, and all other scenes.

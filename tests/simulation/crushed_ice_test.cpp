@@ -114,8 +114,11 @@ TEST(Prescribed, TheLoadOfAShipThatKeepsItsSpeedHasItsPartByFriction) {
       by_friction += sample.friction_of_ice.surge;
     }
     EXPECT_LT(load, -1e5);
-    if (friction == 0) EXPECT_EQ(by_friction, 0);
-    if (friction > 0) EXPECT_TRUE(by_friction < 0.02 * load && by_friction > 0.9 * load) << by_friction / load;
+    if (friction == 0) {
+      EXPECT_EQ(by_friction, 0);
+    } else {
+      EXPECT_TRUE(by_friction < 0.02 * load && by_friction > 0.9 * load) << by_friction / load;
+    }
   }
 }
 

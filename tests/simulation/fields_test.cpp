@@ -33,7 +33,9 @@ TEST(Convex, CornersAreCutOffByAShareOfTheShorterEdge) {
       const Point p = ring[i], q = ring[(i + 1) % ring.size()], r = ring[(i + 2) % ring.size()];
       EXPECT_GT(cross(q - p, r - q), 0) << least << " corners, at " << i;
     }
-    if (least == 5) EXPECT_NEAR(measure_convex(ring).area, 12 - 0.5 * 0.3 * 0.3, 1e-12);
+    if (least == 5) {
+      EXPECT_NEAR(measure_convex(ring).area, 12 - 0.5 * 0.3 * 0.3, 1e-12);
+    }
   }
 }
 

@@ -4,8 +4,9 @@
 "use strict";
 
 /** In a page: sets `textContrasts`. of() returns each text that is shown, with its contrast to its background; controls
- * that are disabled are exempt. watch() records the texts that are drawn into canvases from then on, and drawn() returns
- * them with their contrasts: to the outline if the same words were outlined before, else to the canvas's background. */
+ * that are disabled are exempt. watch() records the texts that are drawn into canvases from then on, and drawn()
+ * returns them with their contrasts: to the outline if the same words were outlined before, else to the canvas's
+ * background. */
 function watchTexts() {
   const paint = Object.assign(document.createElement("canvas"), { width: 1, height: 1 })
     .getContext("2d", { willReadFrequently: true });

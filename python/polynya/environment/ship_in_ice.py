@@ -23,7 +23,7 @@ class Change(typing.NamedTuple):
     """Changes in one step, from which rewards are computed."""
 
     progress: float  #: distance gained towards the goal, or along the initial heading without a goal [m]
-    #: Energy that the ship lost to the ice in the step [J], to contacts and to ice under the hull: minus the mean forces
+    #: Energy that the ship lost to contacts with ice and to ice under the hull in the step [J]: minus the mean forces
     #: and yaw moment times the mean velocities and yaw rate, in the ship's frame at the end of the step.
     ice_work: float
     seconds: float  #: simulated time of the step [s]

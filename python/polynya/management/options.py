@@ -22,8 +22,8 @@ def command_line():
     meaning = "Measure the effect of ice management, and rank the patterns of a study"
     parser = Parser("polynya management", meaning, EXAMPLES, REST)
     parser.add("folders", "Run folders, which are compared, or the folder of a study", metavar="FOLDER", nargs="+")
-    meaning = ("Name of the protected ship or structure; if not given, the one that the pilots protect, otherwise the first "
-               "moored ship, otherwise the first structure")
+    meaning = ("Name of the protected ship or structure; if not given, the one that the pilots protect, otherwise the "
+               "first moored ship, otherwise the first structure")
     parser.add("--body", meaning, metavar="NAME")
     distance = number(0, 1e6, "m", is_open=True)
     parser.add("--upstream", "Distance of the upstream gate from the body [m]; beyond the patterns if not given",

@@ -91,7 +91,7 @@ def roles_of(plan, parameters, table):
     objects = [name for name in varied if any(isinstance(parsed(value), dict) for value in different(table, name))]
     given = asked.get("against")
     if given in varied and any(x_of(given, value) is None for value in different(table, given)):
-        raise InputError(f"report.against: {given} has values that are no numbers, so it cannot be the axis of a figure")
+        raise InputError(f"report.against: {given} has values that are no numbers, so it cannot be an axis")
     against = given or next((name for name in varied if "drift" in name and name not in objects), None)
     grouped = asked.get("group_by") or objects or [name for name in varied if name != against][:1] or varied[:1]
     by = [grouped] if isinstance(grouped, str) else list(grouped)

@@ -42,10 +42,10 @@ EXAMPLES = (
     "performance polaris --channel             in a channel of brash, and minimum power by the ice class rules",
 )
 REST = """Each thickness is a run in a plate of fast ice, repeated twice as long until the mean speed's standard error
-and its change between the halves are below the error asked for, or until it is 20 ship lengths long. Finished runs are kept: a curve that was stopped goes
-on. What a ship's file does not state is estimated where it can be (polynya ships FILE --for-performance lists it), and
-a table shows how far the speed moves with each particular, by the published formulas. Needs Python 3 with numpy, and
-matplotlib for the figure (./setup.sh python).
+and its change between the halves are below the error asked for, or until it is 20 ship lengths long. Finished runs are
+kept, so that a curve that was stopped continues. What a ship's file does not state is estimated where it can be
+(polynya ships FILE --for-performance lists it), and a table shows how far the speed moves with each particular, by the
+published formulas. Needs Python 3 with numpy, and matplotlib for the figure (./setup.sh python).
 
 With --pack, --level or --channel the ship keeps each speed through pack ice, level ice or a channel of brash ice. The
 means of the ice's force over speed, thickness, cover and floe size are a table, and their fit in Colbourne's form (k,
@@ -96,8 +96,8 @@ def command_line():
     parser.add("--error", meaning, type=number(0, 1, is_open=True), metavar="SHARE")
     meaning = "Time step [s]; 0.01 if not given, or with --pack, --level and --channel the default of a scene"
     parser.add("--step", meaning, type=number(1e-5, 1, "s"), metavar="S")
-    meaning = ("Folder for the runs, the table and the figure; runs/performance-SHIP if not given, or with --pack, --level "
-               "and --channel runs/resistance-SHIP")
+    meaning = ("Folder for the runs, the table and the figure; runs/performance-SHIP if not given, or with --pack, "
+               "--level and --channel runs/resistance-SHIP")
     parser.add("--out", meaning, metavar="DIR")
     meaning = "Number of runs at a time; one per processor if not given"
     parser.add("--jobs", meaning, type=number(1, 1024, kind=int), metavar="N")

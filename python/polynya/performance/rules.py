@@ -86,11 +86,11 @@ def print_table(found, ship):
     is_stated = "propeller_diameter_m" in ship.get("propulsion", {}).get("engine", {})
     if all(row["computed_N"] == "" for row in found):
         print("R_ch, P: not computed without runs (polynya performance SHIP --channel, without --list)")
-    unstated = "" if is_stated else f" (assumed: {DIAMETER_OVER_DRAUGHT:g} draughts, because the ship does not state it)"
+    unstated = "" if is_stated else f" (assumed to be {DIAMETER_OVER_DRAUGHT:g} draughts: the ship does not state it)"
     print(f"H_M: thickness of the brash in the middle. R_ch, P: computed at {SPEED / KNOT:g} knots; P by the rules' "
           f"factor from it,\nfor {number} propeller{'s' if number > 1 else ''} of {diameter:.3g} m with fixed "
           f"pitch{unstated}")
     least = {name: f"{power / 1e6:g} MW" for name, power in ice_class.LEAST_POWER.items()}
-    print(f"rule: Finnish-Swedish ice class rules (from memory); at least {least.pop(SUPER)} for IA Super and "
-          f"{'/'.join(dict.fromkeys(least.values()))} for the others.\nThe frozen layer of IA Super is not computed here "
-          "(docs/brash.md).")
+    of_super, (others,) = least.pop(SUPER), set(least.values())
+    print(f"rule: Finnish-Swedish ice class rules (from memory); at least {of_super} for IA Super and {others} for the "
+          "others.\nThe frozen layer of IA Super is not computed here (docs/brash.md).")

@@ -17,7 +17,8 @@ from .stop import Stop
 
 # Action `run`: runs the cases that --chunk, --case or --cases name, or all, and plans the study first if it has no
 # plan. If the study sets `archive`, packed chunks with cases that must run again are unpacked before, and chunks are
-# packed afterwards; with --case only a chunk that was packed before. A chunk or case that does not exist is an error of usage.
+# packed afterwards, except with --case, so that the case's folder can be looked at. A chunk or case that does not exist
+# is an error of usage.
 def run(options):
     study = planned(options)
     if options.chunk_to_run is not None:
@@ -30,17 +31,12 @@ def run(options):
         numbers = range(options.case, options.case + 1)
     else:
         numbers = numbers_of_list(options.cases, study.count, "case") if options.cases else range(study.count)
-    was_packed = False
     if study.plan["archive"]:
         from . import archive
 
-        was_packed = options.case is not None and study.archive(options.case // study.chunk_size).exists()
         archive.unpack_to_run(study, numbers, options.keep, options.retry_failed)
     if options.case is not None:
-        code = run_one(study, options)
-        if was_packed:
-            archive.pack(study, options.case // study.chunk_size)
-        return code
+        return run_one(study, options)
     code = run_cases(study, numbers, options)
     if study.plan["archive"]:
         for chunk in archive.chunks_of(study, numbers):

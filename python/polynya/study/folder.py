@@ -183,9 +183,10 @@ def numbers_of_list(words, count, what):
     numbers = []
     for part in words.split(","):
         low, dash, high = part.partition("-")
-        if not low.isdigit() or (dash and not high.isdigit()) or int(high or low) < int(low):
+        is_number = words.isascii() and low.isdigit() and (not dash or high.isdigit())
+        if not is_number or int(high or low) < int(low):
             raise StudyError(f'"{words}" is no list of {what}s, such as 3,7-9,12', 2)
-        numbers.extend(range(int(low), int(high or low) + 1))
         if int(high or low) >= count:
             raise StudyError(f"there is no {what} {high or low}; the study has 0 to {count - 1}", 2)
+        numbers.extend(range(int(low), int(high or low) + 1))
     return sorted(set(numbers))

@@ -20,10 +20,10 @@ inline constexpr double kBeamStep = 1e-3;
 
 /// Response of a semi-infinite floating beam or narrow wedge to a tip load. Lengths are in l = (E h³ / 12 ρ_w g)^¼.
 struct BeamResponse {
-  double tip_deflection = 0;    ///< w(0), in P / (ρ_w g b l) for a beam, P / (ρ_w g b0 l²) for a wedge [-]
-  double peak_curvature = 0;    ///< max of M / (EI/b or EI/b0 x): M_max / (P l) for a beam, σ b0 h² / 6P for a wedge
-  double peak_distance = 0;     ///< distance of that maximum from the tip, in l [-]
-  std::vector<double> moments;  ///< every kBeamStep from the tip on, in P l
+  double tip_deflection = 0;  ///< w(0), in P / (ρ_w g b l) for a beam, P / (ρ_w g b0 l²) for a wedge [-]
+  double peak_curvature = 0;  ///< max of M / (EI/b or EI/b0 x): M_max / (P l) for a beam, σ b0 h² / 6P for a wedge
+  double peak_distance = 0;   ///< distance of that maximum from the tip, in l [-]
+  std::vector<double> moments = {};  ///< every kBeamStep from the tip on, in P l
 };
 
 /// Solves (b w'')'' + b w = q, the static equation of a beam of width b(x) on water [Hetenyi1946], by finite
