@@ -16,7 +16,7 @@ function liveLook(run, by, colours) {
     return { fills: ramps.size, edgeOf, title: "Size √area [m]", edges,
       bucketOf: (id) => classOf(Math.sqrt(floes.area[id]), edges) };
   }
-  return { fills: ramps.generation, edgeOf, title: "Fractures since the scene", edges: generationEdges,
+  return { fills: ramps.generation, edgeOf, title: "Generations since the scene", edges: generationEdges,
     bucketOf: (id) => classOf(floes.generation[id], generationEdges) };
 }
 

@@ -181,13 +181,6 @@ class Tail:
         found = interval_of(levels, numpy.broadcast_to(weights[:, None], levels.shape))
         return Interval(*(self.threshold + value for value in dataclasses.astuple(found)))
 
-    def exceeded(self, force):
-        """The rate at which peaks exceed a force above the threshold [1/h] by the fit, with its interval."""
-        shapes, scales, weights = self.posterior
-        share = stats.genpareto.sf(force - self.threshold, shapes, scale=scales)
-        rates = share[:, None] * self.rates[None, :]
-        return interval_of(rates, numpy.broadcast_to(weights[:, None], rates.shape))
-
     def spread_of_level(self, period, hours):
         """Half of the interval of `level` that a record of another length [h] would give [N]. It follows from the
         Fisher information of the expected number of peaks, at the shape and scale found here."""

@@ -99,16 +99,17 @@ def rise(hull):
 
 
 def slide(hull):
-    """s̄, the distance that ice slides along the hull, for friction [m]. Unlike in C++, it may be negative here."""
+    """s̄, the distance that ice slides along the hull, for friction [m]; at least 0, as for short and blunt hulls."""
     psi = math.atan(math.tan(hull.stem) / math.sin(hull.entrance))
-    return (
+    return max(
+        0.0,
         0.7 * hull.length
         - hull.draught / math.tan(hull.stem)
         - hull.beam / (4 * math.tan(hull.entrance))
         + hull.draught
         * math.cos(hull.stem)
         * math.cos(psi)
-        * math.sqrt(1 / math.sin(hull.stem) ** 2 + 1 / math.tan(hull.entrance) ** 2)
+        * math.sqrt(1 / math.sin(hull.stem) ** 2 + 1 / math.tan(hull.entrance) ** 2),
     )
 
 

@@ -138,12 +138,18 @@ def cases_needed(values, half_width, level=LEVEL):
 def gumbel_parameters(rows):
     """Location and scale of the Gumbel distribution of largest values for each row, by maximum likelihood. The scale β
     solves β = x̄ − Σ x e^(−x/β) / Σ e^(−x/β) [Johnson1995]. It is found by Newton's method for log β, starting from the
-    method of moments. A row of equal values has no such scale: its results are NaN."""
+    method of moments. A row of equal values has the scale 0 and that value as its location."""
     rows = numpy.atleast_2d(rows)
     low = rows.min(axis=1, keepdims=True)
     x = rows - low
     middle = x.mean(axis=1)
-    scale = numpy.maximum(x.std(axis=1) * math.sqrt(6) / math.pi, 1e-300)  # the first step must not divide by zero
+    scale = x.std(axis=1) * math.sqrt(6) / math.pi
+    is_spread = x.max(axis=1) > 0
+    if not is_spread.all():
+        location, spread_scale = rows[:, 0].copy(), numpy.zeros(len(rows))
+        if is_spread.any():
+            location[is_spread], spread_scale[is_spread] = gumbel_parameters(rows[is_spread])
+        return location, spread_scale
     for _ in range(100):  # far more steps than a row needs; a row that has not converged is not reported
         weights = numpy.exp(-x / scale[:, None])
         total = weights.sum(axis=1)
@@ -163,7 +169,8 @@ def weibull_parameters(rows):
     """Shape and scale of the Weibull distribution from zero for each row of positive numbers, by maximum likelihood.
     −ln X then has a Gumbel distribution with location −ln scale and scale 1/shape."""
     location, scale = gumbel_parameters(-numpy.log(rows))
-    return 1 / scale, numpy.exp(-location)
+    with numpy.errstate(divide="ignore"):  # equal values have the scale 0 there: an infinite shape here
+        return 1 / scale, numpy.exp(-location)
 
 
 def parameters_of(name, rows):

@@ -25,7 +25,7 @@ struct Underwater {
 
 /// Limits of breaking that depend on the ice's material alone.
 struct IceLimits {
-  double breakable_size = 0;  ///< κ l: floes with a smaller √area do not break [m]
+  double breakable_size = 0;  ///< κ l: floes with a smaller √area neither bend nor split [m]
   /// Opening capacity of a crack that is as long and as wide as the ice is thick; smaller forces split no floe, so
   /// that no crack is searched for them [N].
   double least_splitting_force = 0;

@@ -119,3 +119,14 @@ def test_as_many_cases_as_are_needed_make_the_interval_narrow_enough():
 def test_what_is_no_sample_is_refused_with_words(call):
     with pytest.raises(ValueError, match="found|sample"):
         call()
+
+
+def test_a_row_of_equal_values_has_a_fit_without_spread():
+    rows = numpy.array([[2.0, 2, 2], [1, 2, 4], [3, 3, 3]])
+    gumbel = statistics.parameters_of("gumbel", rows)
+    assert gumbel[0].tolist() == [2, 0] and gumbel[2].tolist() == [3, 0]
+    assert gumbel[1] == pytest.approx(statistics.parameters_of("gumbel", rows[1:2])[0])
+    weibull = statistics.parameters_of("weibull", rows)
+    assert weibull[0] == pytest.approx([math.inf, 2]) and numpy.isfinite(weibull[1]).all()
+    level = statistics.level_interval("gumbel", numpy.array([1.0, 1, 1, 1, 2]), 0.1)
+    assert level.low <= level.value <= level.high

@@ -110,7 +110,7 @@ function makeColourings(run, places, most) {
     breakage: { ...colouring("breakage", "Ice", [1, 2, 3, 4], (id) => breakageOf[id], ["whole",
       "cut: what is left of a floe", "split off", "broken off by bending or grinding", "came up from under the hull"]),
     isUsed: (k) => breakageOf.includes(k) },
-    generation: colouring("generation", "Fractures since the scene", generations, (id) => floes.generation[id],
+    generation: colouring("generation", "Generations since the scene", generations, (id) => floes.generation[id],
       ["none", ...generations.map((edge, k) => countWords(edge, generations[k + 1]))]),
     speed: colouring("speed", "Speed [m/s]", speeds, (id) => Math.hypot(places.vx[id], places.vy[id]), classes(speeds)),
     size: colouring("size", "Size \u221aarea [m]", sizes, (id) => sizeOf(floes, id), classes(sizes)),

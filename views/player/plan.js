@@ -1,5 +1,5 @@
 // A scene before it runs: routes, wind and current, warnings of `polynya validate`, and positions to copy. The data is
-// in `plan` of the page's options (views/player/player_page.cpp).
+// in `plan` of the page's options (views/player/scene_plan.cpp).
 
 const currentCell = 110; // distance between the arrows of the current [px]
 const longestArrow = 40; // length of the arrow of the fastest current on the screen [px]

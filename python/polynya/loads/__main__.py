@@ -57,6 +57,8 @@ def report(options):
         if rows:
             tables.write_csv(out / f"loads-{name}.csv", rows)
             print(out / f"loads-{name}.csv", flush=True)
+        else:  # an earlier call may have left one
+            (out / f"loads-{name}.csv").unlink(missing_ok=True)
     drawn = draw(loads, estimates, options, out)
     shown = [("Fits", list(page.fit_rows(estimates))), ("Panels", written["panels"])]
     made = page.page(loads, estimates, answers, options, shown, drawn)

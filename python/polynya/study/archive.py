@@ -89,7 +89,7 @@ def unpack_to_run(study, numbers, keep, retries_failed):
     for chunk in chunks_of(study, numbers) if is_thinned or retries_failed else []:
         if not study.archive(chunk).exists():
             continue
-        mine = [result for result in results_of(study, chunk) if result["case"] in numbers]
+        mine = [result for number, result in zip(study.cases_of(chunk), results_of(study, chunk)) if number in numbers]
         if is_thinned or any(result["state"] == "failed" for result in mine):
             unpack(study, chunk)
 
