@@ -13,7 +13,7 @@ namespace polynya::analysis {
 
 /// A floe whose polygon is not valid.
 struct InvalidFloe {
-  simulation::FloeId floe = 0;
+  simulation::FloeId floe = 0;                  ///< id of the floe
   std::string defect;                           ///< name of the first defect that was found
   std::vector<geometry::Point> places_in_body;  ///< places of that defect in the floe's body frame [m]
 };
@@ -29,29 +29,32 @@ struct Worst {
 /// report rounding; a larger one would miss ice that is lost or counted twice.
 inline constexpr double kAreaTolerance = 1e-9;
 
-/// Area that two floes share.
+/// Area that two floes, or a hull and a floe, share.
 struct SharedIce {
-  simulation::FloeId first = simulation::kNoFloe;
-  simulation::FloeId second = simulation::kNoFloe;
-  double time = 0;   ///< instant of the overlap, or time of the fracture for pieces of one fracture [s]
-  double area = 0;   ///< exact area, rounded to the nearest double [m²]
-  double depth = 0;  ///< largest distance of a vertex of one floe inside the other from the other's edge [m]
+  simulation::FloeId first = simulation::kNoFloe;   ///< kNoFloe for a hull, and if no two bodies share any area
+  simulation::FloeId second = simulation::kNoFloe;  ///< the other floe
+  double time = 0;  ///< instant of the overlap, or time of the fracture for pieces of one fracture [s]
+  double area = 0;  ///< exact area, rounded to the nearest double [m²]
+  /// Largest distance of an outer vertex of one inside the other from the other's edge [m]; 0 if no vertex is inside,
+  /// if they share at most kTouchingArea, or for pieces of one fracture.
+  double depth = 0;
 };
 
 /// Overlap of two bodies beyond crushed ice and ice in contact that is accepted, as a fraction of the smaller body's
 /// area [-]. The effect of a time step and of the accuracy of frames is accepted in addition. A smaller value reports
-/// more overlaps, and a run with any is not sound.
+/// more overlaps, and a run with any is not sound; a larger one may miss bodies that pass through each other.
 inline constexpr double kUncrushedShare = 0.01;
 /// Largest number of such overlaps that are stored and listed; the others are only counted. The text also lists at most
-/// this number of UnpaidOverlap.
+/// this number of UnpaidOverlap. Larger: longer reports and more memory; smaller: fewer bodies are named. It has no
+/// effect on whether a run is sound.
 inline constexpr std::size_t kMostUncrushed = 20;
 
 /// Two bodies whose overlap is larger than the recorded crushed, tilted and pressing overlaps between them together.
 struct UncrushedOverlap {
-  simulation::ContactState::Body first, second;
-  double time = 0;        ///< [s]
-  double shared = 0;      ///< exact overlap, rounded to the nearest double [m²]
-  double crushed = 0;     ///< recorded crushed area, with the area that tilted down [m²]
+  simulation::ContactState::Body first, second;  ///< in RunCheck::uncrushed `second` is always a floe
+  double time = 0;                               ///< time of the frame [s]
+  double shared = 0;                             ///< exact overlap, rounded to the nearest double [m²]
+  double crushed = 0;                            ///< recorded crushed area, with the area that tilted down [m²]
   double in_contact = 0;  ///< recorded overlap whose crushing has not been done yet; it presses the bodies apart [m²]
   /// Accepted overlap beyond these: kUncrushedShare of the smaller body, and an allowance for one time step of relative
   /// motion and for the accuracy of frames [m²].
@@ -61,7 +64,8 @@ struct UncrushedOverlap {
 
 /// Largest accepted ratio between the work that the crushed volume needs (σ_c V) and the recorded work, in either
 /// direction [-]. It applies only to pairs that crushed more than kUncrushedShare of the smaller body; smaller volumes
-/// are too inaccurate to compare. A smaller value reports more pairs, and a run with any is not sound.
+/// are too inaccurate to compare. A smaller value reports more pairs, and a run with any is not sound; a larger one
+/// accepts forces that are further from the strength of the ice.
 inline constexpr double kMostWorkFactor = 1.5;
 
 /// Two bodies whose crushed ice does not match the recorded work.
@@ -75,12 +79,13 @@ struct UnpaidOverlap {
 
 /// Results of checking a run.
 struct RunCheck {
-  io::FilesCheck files;    ///< comparison of the files with their checksums
-  std::size_t shapes = 0;  ///< number of floes whose polygons were checked
-  std::vector<InvalidFloe> invalid;
-  Worst recorded_area;        ///< recorded area − area of the polygon
-  std::size_t fractures = 0;  ///< number of events that ended a floe
-  /// Areas of such an event: children + submerged + stayed under the ice + brash − rounding defect − parent.
+  io::FilesCheck files;              ///< comparison of the files with their checksums
+  std::size_t shapes = 0;            ///< number of floes whose polygons were checked
+  std::vector<InvalidFloe> invalid;  ///< all floes with invalid polygons, in the order of the run
+  Worst recorded_area;               ///< recorded area − area of the polygon
+  std::size_t fractures = 0;         ///< number of events that ended a floe
+  /// Areas of such an event: children + submerged + stayed under the ice + brash − rounding defect − parent. The floe
+  /// is the parent.
   Worst balance;
   /// Pairs of pieces of one fracture that share more than kAreaTolerance of their parent's area.
   std::size_t overlapping_siblings = 0;
@@ -126,11 +131,13 @@ struct RunCheck {
 /// at most one is a hull, is compared with the crushed or tilted area (crushed.csv), and the crushed ice with the work.
 /// In runs of versions that did not record these, and at an `only_at` that is not the time of a frame, overlaps are
 /// only measured. The floes of final.geojson are compared with their places in frames.bin, also with `only_at`.
-/// `on_part` is called often with the completed fraction (0..1).
+/// `on_part` is called often with the completed fraction (0..1). Faults of the run are in the result; nothing is thrown
+/// for them.
 RunCheck check_run(const io::Run& run, std::optional<double> only_at = {},
                    const std::function<void(double)>& on_part = {});
 
-/// Return the results as `polynya inspect --check` prints them, for people and as JSON (docs/inspect.md).
+/// Return the results as `polynya inspect --check` prints them, for people and as JSON (docs/inspect.md). `scene` is
+/// that of the run; it gives the names of hulls.
 std::string to_text(const RunCheck& check, const simulation::Scene& scene);
 std::string to_json_text(const RunCheck& check, const simulation::Scene& scene);
 

@@ -14,7 +14,8 @@ namespace polynya::io {
 
 /// Largest magnitude of a coordinate of a floe in the plane, and largest distance from the origin to which floes are
 /// projected [m]. Farther floes are refused, because a larger coordinate usually means another unit or coordinate
-/// system, or a wrong number. At this distance a plane about an origin is wrong by 0.4 % in length (frame_about).
+/// system, or a wrong number. At this distance a plane about an origin is wrong by 0.4 % in length (frame_about). A
+/// larger value accepts larger errors and more wrong numbers; a smaller one refuses more files of large regions.
 inline constexpr double kFarthestFloe = 1e6;
 
 /// Default of PlaneSettings::tolerance, and of the tolerance of exports [m]. With it, an import followed by an export
@@ -23,8 +24,10 @@ inline constexpr double kEdgeTolerance = 0.0005;
 
 /// A floe of a file. bring_to_plane() replaces the file's coordinates by those of the plane.
 struct SourceFloe {
-  geometry::Polygon polygon;  ///< rings as drawn in the file: in either direction, closed or open
-  FloeProperties properties;
+  /// Rings as drawn in the file: in either direction, closed or open. In the units of the file before, and in metres in
+  /// the plane after bring_to_plane().
+  geometry::Polygon polygon;
+  FloeProperties properties;                ///< what the file says about the floe; its velocity turns with the axes
   std::string refused = {};                 ///< reason why it is refused; empty: it is not
   std::optional<std::size_t> feature = {};  ///< number of the feature in the file to which the polygon belongs
   /// True if one of its edges lies on the meridian of longitude 180, where files divide floes; such parts may be
@@ -42,19 +45,21 @@ struct FilePlace {
 /// coordinates in metres keep their plane.
 struct PlaneSettings {
   std::optional<simulation::GeographicOrigin> origin;  ///< use the plane about this place (frame_about)
-  std::string target;                                  ///< use the plane of this projected system, "EPSG:3413"
+  std::string target;  ///< use the plane of this projected system in metres, "EPSG:3413"; empty: none
   std::string source;  ///< system of the coordinates of a file that names none; a file that names another is refused
   /// For a file in degrees without origin and target. True: the middle of its floes becomes the origin, with the x axis
   /// to the east. False: the file is refused.
   bool chooses_origin = false;
-  bool are_metres = false;  ///< true: coordinates without a system are metres, even if they look like degrees
+  /// True: coordinates of a file without a system are metres, even if they look like degrees. It has no effect on a
+  /// file that names or states its system, or if `source` names one.
+  bool are_metres = false;
   /// For a file without a system, if an origin is given and the coordinates do not look like degrees. True: they are
   /// metres of the plane about the origin, and are kept. False: the file is refused.
   bool keeps_metres = true;
   bool marks_180 = false;   ///< set SourceFloe::is_at_180; it takes time if the file is not in degrees
   bool is_shifted = false;  ///< move the middle of the box around all floes to (0, 0), by whole metres
-  /// Largest distance between the exact image of an edge and the straight lines that replace it [m]. A smaller
-  /// tolerance adds more points to edges. With 0 no points are added.
+  /// Largest distance between the exact image of an edge and the straight lines that replace it [m]; at least 0. A
+  /// smaller tolerance adds more points to edges. With 0 no points are added.
   double tolerance = kEdgeTolerance;
   /// Returns the option or key with which a user gives an origin [°], for messages. It must be set.
   std::string (*origin_in_words)(double latitude, double longitude) = nullptr;
@@ -81,8 +86,9 @@ struct PlaneError {
   std::string words;                ///< message
 };
 
-/// Projects floes and their velocities to metres in a plane, with GDAL, and returns a report on it. Floes that are
-/// refused already are not projected. Further floes are refused, with the reason in SourceFloe::refused:
+/// Projects floes and their velocities to metres in a plane, with GDAL, and returns a report on it. After an error the
+/// floes are partly changed and must not be used. Floes that are refused already are not projected. Further floes are
+/// refused, with the reason in SourceFloe::refused:
 /// - if a coordinate is not finite,
 /// - if a latitude is beyond ±90° or a longitude beyond ±540°,
 /// - if a point has no image in the plane,
@@ -91,9 +97,12 @@ struct PlaneError {
 /// - if a coordinate in the plane, after the shift, is beyond ±kFarthestFloe.
 /// If all floes have one of these faults, or more than half of them the last one, the whole file fails with it. The
 /// file also fails if it is in degrees and neither an origin nor a target is given (unless one may be chosen), if PROJ
-/// does not know its system, or if the plane is not in metres. Coordinates without a system that do not look like
-/// degrees (CoordinateEvidence) are metres of the plane. A file that states its own place (StatedPlace) keeps it unless
-/// another plane is asked for; then its floes are moved there.
+/// does not know its system, if the plane is not in metres, if the file names another system than `source`, or if GDAL
+/// is needed and missing. The rules for the system come in this order: a place that the file states (StatedPlace), the
+/// system that it names, PlaneSettings::source, and then the coordinates themselves. Coordinates without a system that
+/// do not look like degrees (CoordinateEvidence) are metres of the plane; with an origin they are also degrees if at
+/// least a tenth of the floes lie near it as degrees, or if all ice would be less than 1 m². A file that states its own
+/// place keeps it unless another plane is asked for; then its floes are moved there.
 tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& floes, const FilePlace& place,
                                                      const PlaneSettings& settings);
 
@@ -102,7 +111,7 @@ tl::expected<PlaneReport, PlaneError> bring_to_plane(std::vector<SourceFloe>& fl
 bool are_one(const simulation::GeographicOrigin& a, const simulation::GeographicOrigin& b);
 
 /// Describes the plane of a report for messages, "the plane about 78.3° N, 15° E, x along 90°, shifted by (10, 20) m".
-/// Returns an empty text if the plane has no place on the Earth.
+/// Returns an empty text if the plane has no place on the Earth, even if it is shifted.
 std::string place_in_words(const PlaneReport& plane);
 
 }  // namespace polynya::io

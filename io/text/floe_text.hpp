@@ -16,10 +16,12 @@
 namespace polynya::io {
 
 /// Longest text of floes that is read [bytes]; longer ones are refused. It limits the memory that a wrong file can
-/// take. A larger limit must stay below 4 GiB, because offsets in texts have 32 bits.
+/// take. A larger limit must stay below 4 GiB, because offsets in texts have 32 bits; a smaller one refuses files of
+/// large ice charts.
 inline constexpr std::size_t kLongestFloeText = std::size_t{256} << 20;
 
-/// Format in which a text of floes is written: one GeoJSON value, one GeoJSON value per line, or WKT geometries.
+/// Format in which a text of floes is written: one GeoJSON value, one GeoJSON value per line (NDJSON), or WKT
+/// geometries.
 enum class FloeFormat { kGeojson, kNdjson, kWkt };
 
 /// One polygon of a text as it is written there, or the reason why there is none.
@@ -30,7 +32,7 @@ struct FloeEntry {
   std::size_t feature = 0;              ///< number of the feature, line or WKT geometry that has the polygon, from 0
   std::size_t member = 0;               ///< number of the polygon in its feature, from 0
   std::uint32_t offset = 0;             ///< position of the polygon in the text [bytes]
-  std::size_t line = 1;                 ///< line of the polygon in the text, from 1
+  std::size_t line = 1;                 ///< line in the text at which the polygon begins, from 1
   std::optional<std::int64_t> floe_id;  ///< property "floe_id", if it is a number that floe_id_in() accepts
   std::optional<std::string> other_id;  ///< otherwise that property, or the "id" of the feature: JSON as written
   /// Properties of the feature except `own_properties`, as members of a JSON object without its braces; null: none.
@@ -42,7 +44,7 @@ struct FloeEntry {
   /// Kind of the reason why there is no polygon: "not-a-polygon", "no-geometry", "malformed" or "syntax"; empty: there
   /// is one.
   std::string refusal;
-  std::string detail;  ///< explanation of the refusal for the message
+  std::string detail;  ///< explanation of the refusal for the message: "found Point, expected …"; empty: none needed
 };
 
 /// Place on the Earth of the plane of a file that Polynya wrote. Such a file states it in members of its own, because
@@ -52,7 +54,7 @@ struct StatedPlace {
   /// "shifted_crs": the plane is that of this coordinate system, shifted; empty: it has no such member
   std::string shifted_crs;
   geometry::Vector shift;  ///< "shift_m": vector that was added to the coordinates in that system [m]
-  std::string wrong;       ///< message if such a member cannot be read; empty: all can
+  std::string wrong;       ///< message if such a member cannot be read, which refuses the file; empty: all can
 
   /// Returns true if the file states its place.
   bool is_stated() const { return origin || !shifted_crs.empty(); }
@@ -86,8 +88,9 @@ struct FloeText {
 /// Reads the polygons of a text: GeoJSON (Polygon, MultiPolygon, Feature, FeatureCollection, GeometryCollection),
 /// NDJSON (one of these per line) or WKT. The format is recognised by the content. '#' and '//' begin comments. A text
 /// without content has no polygons. Anything that is not a polygon, such as a bad line of NDJSON or WKT, becomes an
-/// entry with the reason why it is refused. The polygons are not checked for crossings. Fails with "line:column: words"
-/// if the text cannot be read at all.
+/// entry with the reason why it is refused, and reading continues after it. The polygons are not checked for crossings.
+/// Fails with "line:column: words" if the text cannot be read at all: one that begins as JSON and is none, one in none
+/// of the formats, or one longer than kLongestFloeText.
 Result<FloeText> read_floe_text(std::string text);
 
 /// Reads the polygons of one GeoJSON value in the same way, but with no properties except floe_id, and without "crs",
@@ -98,7 +101,7 @@ FloeText read_floe_json(const JsonValue& geojson);
 void append_wkt(std::string& text, const geometry::Polygon& polygon);
 
 /// Returns true if a text may be in one of these formats: its first line that is neither blank nor a comment begins as
-/// one of them, or there is no such line.
+/// one of them, or there is no such line. The beginning of a text is enough.
 bool may_be_floe_text(std::string_view text);
 
 /// Returns the id of a floe from the member `key` of an object. Returns nothing if there is no such member, or if it is
@@ -106,14 +109,15 @@ bool may_be_floe_text(std::string_view text);
 std::optional<std::int64_t> floe_id_in(const JsonValue& object, std::string_view key);
 
 /// Returns the name of the coordinate system in a GeoJSON member "crs" (FloeText::crs), for find_crs(). A number
-/// becomes "EPSG:n". Returns "" if the member names no system.
+/// becomes "EPSG:n". Returns "" if the member names no system, and for an empty text.
 std::string crs_name(const std::string& crs);
 
-/// Returns the coordinate system that a text names by "crs", or if it has none by SRID; may be empty.
+/// Returns the coordinate system that a text names by "crs", or if it has none by SRID, for find_crs(); empty if it
+/// names none. StatedPlace is not used.
 std::string system_of(const FloeText& text);
 
-/// Returns true if a point may be a longitude and a latitude [°]. Longitudes up to a turn beyond ±180 are accepted,
-/// because floes across longitude 180 may be drawn with them.
+/// Returns true if a point may be a longitude (x) and a latitude (y) [°]; false for NaN. Longitudes up to a turn beyond
+/// ±180 are accepted, because floes across longitude 180 may be drawn with them.
 bool is_in_degrees(geometry::Point point);
 
 /// Evidence from coordinates alone whether they are degrees, for files that name no coordinate system. If such a file

@@ -24,15 +24,17 @@ class Descriptor {
     return *this;
   }
   ~Descriptor() { close(); }
-  operator int() const { return opened_; }
-  /// Closes the file. Returns false and sets errno if data that were written could not be stored.
+  operator int() const { return opened_; }  ///< the descriptor, for calls of the system; negative: no file
+  /// Closes the file. Returns false and sets errno if data that were written could not be stored. The destructor
+  /// ignores such an error. Does nothing, and returns true, if there is no file.
   bool close();
 
  private:
   int opened_;
 };
 
-/// Returns true if the path still names the open file, and not a link to it or another file.
+/// Returns true if the path still names the open file, and not a link to it or another file. Returns false if it names
+/// nothing.
 bool is_still_at(int descriptor, const std::filesystem::path& path);
 
 /// A file that grows by whole records, such as a line or a frame. Records are buffered until flush(), sync() or the
@@ -40,7 +42,8 @@ bool is_still_at(int descriptor, const std::filesystem::path& path);
 /// whole record. Symbolic links are not followed, because a run folder may come from somebody else.
 class OutputFile {
  public:
-  /// Creates the file. A file or link that already has its name is removed; a folder of that name is an error.
+  /// Creates an empty file. A file or link that already has its name is removed; a folder of that name, or a missing
+  /// folder above it, is an error. All errors of this class begin with the path.
   static Result<OutputFile> create(const std::filesystem::path& path);
   /// Opens a file to append to it. `then` is the checksum of the part that is valid, from a checkpoint. The caller has
   /// compared it with the file. Bytes beyond the size of that part are cut off. A shorter file, a link, or anything
@@ -54,20 +57,20 @@ class OutputFile {
     buffer_ += record;
     record_ends_.push_back(buffer_.size());
   }
-  std::size_t buffered() const { return buffer_.size(); }  ///< [bytes]
+  std::size_t buffered() const { return buffer_.size(); }  ///< size of the records not yet written [bytes]
 
   /// Writes the buffer to the file, which then survives the end of the process. Returns false on a failure. After a
-  /// failure nothing more is written, and status() keeps the failure.
+  /// failure nothing more is written, status() keeps the failure, and all further calls return false.
   bool flush();
   /// Does the same and waits until the disk has stored the file, which then survives a failure of the machine.
   bool sync();
-  std::uint64_t size() const { return written_.size(); }  ///< on disk [bytes]
+  std::uint64_t size() const { return written_.size(); }  ///< size of the written part, without the buffer [bytes]
   /// Returns the checksum of the bytes that were written, computed before they were handed to the disk. If the disk
   /// changes them, the checksum of the file differs from this one.
   const Checksum& checksum() const { return written_; }
   /// Returns true if the file still has its name, so that it was neither removed nor replaced.
   bool is_in_place() const { return is_still_at(descriptor_, name_); }
-  const std::string& name() const { return name_; }
+  const std::string& name() const { return name_; }  ///< path with which the file was opened
   /// Discards the buffer without writing it.
   void drop() {
     buffer_.clear();
@@ -97,18 +100,20 @@ enum class Durability {
 /// cannot be read.
 Result<> sync_folder(const std::filesystem::path& folder);
 
-/// Removes a file, a symbolic link or an empty folder. It is no error if there is none.
+/// Removes a file, a symbolic link (not the file to which it leads) or an empty folder. It is no error if there is
+/// none; a folder that is not empty is one.
 Result<> remove_file(const std::filesystem::path& path);
 
 /// Returns the name under which write_whole_file() writes a file before it is renamed. If the program is killed
-/// meanwhile, a file of that name remains.
+/// meanwhile, a file of that name remains; the next call for the same path replaces it.
 inline std::filesystem::path temporary_name(std::filesystem::path path) {
   return path += ".part";
 }
 
 /// Writes a file of a run folder in one step: under a temporary name beside it, which is then renamed, so that a reader
 /// finds either the old file or the new one. A symbolic link of that name is replaced, not followed, because a run
-/// folder may come from somebody else. A pipe, a device or a folder is refused and stays.
+/// folder may come from somebody else. A pipe, a device or a folder is refused and stays. After an error the old file
+/// stays, except that with kSynced the last step, storing the folder, may fail after the new file has its name.
 Result<> write_whole_file(const std::filesystem::path& path, std::string_view text,
                           Durability durability = Durability::kRenamed);
 
@@ -120,7 +125,8 @@ Result<> write_whole_file_in_parts(const std::filesystem::path& path,
                                    Durability durability = Durability::kRenamed);
 
 /// Writes to a name that a user gave, for example with --out. A regular file is replaced in one step, and for a link
-/// the file to which it leads. A pipe or a device is written to. A folder is refused.
+/// the file to which it leads, even if that file does not exist yet. A pipe or a device is written to. A folder is
+/// refused. The file survives the end of the program, but not surely a failure of the machine (Durability::kRenamed).
 Result<> write_named_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace polynya::io

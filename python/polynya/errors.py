@@ -6,8 +6,8 @@ import os
 import sys
 import typing
 
-# Debian's own Python, which finds the modules of Debian's packages. Messages suggest it, and it decides between apt-get
-# and pip.
+# Path of Debian's own Python, the one that finds the modules of Debian's packages. Messages suggest it, and suggest
+# apt-get if it is the Python that runs, otherwise pip.
 DEBIANS = "/usr/bin/python3"
 
 
@@ -33,7 +33,8 @@ class Problem:
 
 
 class SceneError(ValueError):
-    """A scene that is wrong. `problems` lists all its errors as Problem. Its text has a line for each of them."""
+    """A scene that is wrong. `problems` lists all its errors as Problem, without warnings and hints. Its text has a
+    line for each of them."""
 
     def __init__(self, problems):
         super().__init__(problems)
@@ -58,8 +59,9 @@ class InputError(Exception):
 
 
 def how_to_get(*packages):
-    """Returns the command that installs packages for this Python: apt-get for Debian's own Python, pip for any other
-    one, such as that of a virtual environment."""
+    """Returns the command, as a text, that installs packages for this Python: apt-get for Debian's own Python, pip for
+    any other one, such as that of a virtual environment. `packages` are names as in imports, which Debian prefixes by
+    "python3-"."""
     is_debians = os.path.realpath(sys.executable) == os.path.realpath(DEBIANS) and sys.prefix == sys.base_prefix
     if is_debians:
         return "apt-get install " + " ".join(f"python3-{name}" for name in packages)
@@ -68,7 +70,8 @@ def how_to_get(*packages):
 
 def missing_package(error):
     """Returns a message for an ImportError: which Python lacks which package, and what to do. The message is empty if
-    the missing module is a part of polynya, because this is a defect that no installation repairs."""
+    the missing module is a part of polynya, because this is a defect that no installation repairs. If the error does
+    not name a module, as for a damaged library, the message has the text of the error."""
     name = (error.name or "").partition(".")[0]
     if name == "polynya":
         return ""
@@ -82,19 +85,22 @@ def missing_package(error):
 
 
 def require(*packages):
-    """Ends a script with a message and exit code 1 if this Python lacks one of these packages. Scripts call it before
-    they import them."""
+    """Ends a script with a message on stderr and exit code 1 if this Python lacks one of these packages; otherwise it
+    does nothing. Scripts call it before they import them. Only the first missing package is named."""
     for name in packages:
         if importlib.util.find_spec(name) is None:
             sys.exit(missing_package(ModuleNotFoundError(name=name)))
 
 
 class SimulationError(RuntimeError):
-    """A run that cannot continue: numbers that are not finite, or a speed beyond the limit."""
+    """A run that cannot continue, because a body has a speed that is not finite or is 1000 m/s or more (kRunawaySpeed),
+    or because a load is more than four times the largest force that its ice can carry (overload_of in
+    simulation/world/step.hpp). Both are numerical failures. The text has the time [s] and the reason."""
 
 
 class FolderError(ValueError):
-    """A folder of a run or a study that cannot be read. The message states the file, the problem and what to do."""
+    """A folder of a run or a study, or a file in it, that cannot be read. The message states the file, the problem and
+    what to do. The commands end with exit code 5."""
 
 
 class NotARunError(FolderError):

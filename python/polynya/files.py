@@ -15,14 +15,16 @@ from .errors import FolderError
 from .program import program
 
 # Longest cell of a CSV file [characters]. Python's own limit of 131 072 could refuse a file that polynya has written.
+# This one is the largest that Python accepts on every system; a smaller one may refuse long cells.
 LONGEST_CELL = 2**31 - 1
-LONGEST_SHOWN = 60  # longest value in a message [characters]; longer ones end in an ellipsis
+# Longest value in a message [characters]; longer ones end in an ellipsis. Larger: a damaged file may fill the screen.
+LONGEST_SHOWN = 60
 
 
 def check_run(folder):
     """Lets the program read and check a run folder, as `polynya inspect` does, so that Python can read it afterwards
-    without checking each value again. Raises FolderError, with the program's message, if the folder is damaged or the
-    program cannot be started."""
+    without checking each value again. Returns nothing. Raises FolderError, with the program's message, if the folder is
+    damaged or the program cannot be started."""
     words = [program(), "read-run", "--", os.fspath(folder)]
     try:
         done = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, check=False)
@@ -35,8 +37,8 @@ def check_run(folder):
 
 
 def open_regular(path):
-    """Opens a file to read its bytes. Raises FolderError if the file cannot be opened, or for pipes, devices and
-    folders: reading a pipe could wait for ever."""
+    """Opens a file to read its bytes and returns the file object, which the caller closes. Raises FolderError if the
+    file is missing or cannot be opened, or for pipes, devices and folders: reading a pipe could wait for ever."""
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
     except FileNotFoundError:
@@ -49,7 +51,7 @@ def open_regular(path):
     return open(descriptor, "rb")
 
 
-# Returns the contents of a file.
+# Returns the contents of a file as bytes. Raises FolderError if it cannot be opened or read.
 def read_bytes(path):
     try:
         with open_regular(path) as file:
@@ -59,8 +61,8 @@ def read_bytes(path):
 
 
 def read_text(path):
-    """Returns the text of a file in UTF-8, without a byte order mark at its start, and with its line ends as they
-    are."""
+    """Returns the text of a file in UTF-8, without a byte order mark at its start, and with its line ends as they are.
+    Raises FolderError, with the line, for bytes that are not UTF-8."""
     data = read_bytes(path)
     try:
         return data.decode("utf-8-sig")
@@ -71,7 +73,7 @@ def read_text(path):
 
 def whole_lines(path):
     """Returns the lines of a file without their line breaks. A last line that has no line break, which a killed run may
-    leave, is incomplete and is ignored."""
+    leave, is incomplete and is ignored. Only "\\n" is a line break; a "\\r" before it stays in the line."""
     text = read_text(path)
     return text[: text.rfind("\n") + 1].split("\n")[:-1]
 
@@ -79,7 +81,7 @@ def whole_lines(path):
 @contextlib.contextmanager
 def naming(path):
     """Within this context an OSError without the name of a file gets the name `path`. An error of write(), for example
-    on a full disk, has none, so that its message would not say which file is meant."""
+    on a full disk, has none, so that its message would not say which file is meant. All errors are raised again."""
     try:
         yield
     except OSError as error:
@@ -90,14 +92,15 @@ def naming(path):
 
 @contextlib.contextmanager
 def writing(path, **more):
-    """Opens a text file for writing in UTF-8; an existing file is replaced. An OSError names the file. `more` are
-    further arguments of open()."""
+    """Opens a text file for writing in UTF-8; an existing file is emptied first. An OSError names the file. After an
+    error, the part that was written stays under the name. `more` are further arguments of open()."""
     with naming(path), open(path, "w", encoding="utf-8", **more) as file:
         yield file
 
 
 class Members(dict):
-    """A JSON object of a file. Accessing a missing member raises FolderError with the file's name."""
+    """A JSON object of a file. Accessing a missing member by [] raises FolderError with the file's name; get() returns
+    its default as in any dict."""
 
     def __init__(self, pairs, path):
         super().__init__(pairs)
@@ -123,7 +126,7 @@ def _number(literal):
 
 
 def _whole(literal):
-    return int(literal) if len(literal) < 19 else _number(literal)  # longer ones may exceed 64 bits: doubles
+    return int(literal) if len(literal) < 19 else _number(literal)  # longer ones may exceed 64 bits: rounded to doubles
 
 
 # Python parses a number beyond the range of doubles as infinity, or as an integer of any length. The functions above
@@ -135,7 +138,8 @@ MAY_BE_BEYOND = re.compile(r"[eE]\+?[0-9]{3}|[0-9]{19}")
 def parse_json(text, path, line=1, pairs_hook=None):
     """Returns the value of a JSON text. `path` and `line` are the file and the line at which the text begins; they are
     used for messages alone. `pairs_hook` is the object_pairs_hook of json.loads(). Raises FolderError for a text that
-    is not JSON, and for NaN, Infinity and numbers beyond the range of doubles."""
+    is not JSON or is nested too deep, and for NaN, Infinity and numbers beyond the range of doubles. If a key occurs
+    twice in an object, the last value counts, unless the hook decides otherwise."""
     kinds = {"parse_float": _number, "parse_int": _whole} if MAY_BE_BEYOND.search(text) else {}
     try:
         return json.loads(text, object_pairs_hook=pairs_hook, parse_constant=_refuse, **kinds)
@@ -150,7 +154,8 @@ def parse_json(text, path, line=1, pairs_hook=None):
 
 
 def read_json(path):
-    """Returns the object of a JSON file as Members, as are all objects in it."""
+    """Returns the object of a JSON file as Members, as are all objects in it. Raises FolderError if the file is
+    missing, damaged or has another value than an object."""
     found = parse_json(read_text(path), path, pairs_hook=lambda pairs: Members(pairs, path))
     if not isinstance(found, dict):
         raise FolderError(f"{path}:1: not a JSON object")
@@ -158,7 +163,8 @@ def read_json(path):
 
 
 def read_json_lines(path):
-    """Returns the objects of a file with one JSON object per line."""
+    """Returns the objects of a file with one JSON object per line, as plain dicts. A last line without a line break is
+    ignored (whole_lines()). Raises FolderError, with the line, for any other line, also an empty one."""
     found = []
     for number, line in enumerate(whole_lines(path), 1):
         found.append(parse_json(line, path, number))
@@ -168,7 +174,8 @@ def read_json_lines(path):
 
 
 class Columns(dict):
-    """Columns of a table by name. Accessing a missing column raises FolderError with the file's name."""
+    """Columns of a table by name, as lists or arrays. Accessing a missing column by [] raises FolderError with the
+    file's name, `path`."""
 
     def __init__(self, columns, path):
         super().__init__(columns)
@@ -179,8 +186,9 @@ class Columns(dict):
 
 
 def read_cells(path):
-    """Returns the cells of a CSV file as Columns: for each name of the first line a list of texts, all of one length.
-    Raises FolderError for a file without names, with a name twice, or with a row of another length."""
+    """Returns the cells of a CSV file as Columns: for each name of the first line a list of texts, all of one length. A
+    table with only its names has empty lists. An incomplete last line is ignored (whole_lines()). Raises FolderError
+    for a missing file, a file without names, with a name twice, or with a row of another length."""
     csv.field_size_limit(LONGEST_CELL)
     reader = csv.reader(line + "\n" for line in whole_lines(path))
     rows, places = [], []
@@ -210,9 +218,9 @@ def is_number(cell):
 
 
 def numbers(cells, path, name, absent=("", "null")):
-    """Converts the cells of a column to numbers. A cell that is in `absent` becomes NaN. `path` and `name`, of the file
-    and the column, are for messages. Raises FolderError for a cell that is neither a finite number nor absent; its line
-    is right if no cell of the file contains a line break."""
+    """Converts the cells of a column to a list of floats. A cell that is in `absent` becomes NaN. `path` and `name`, of
+    the file and the column, are for messages. Raises FolderError for a cell that is neither a finite number nor absent;
+    its line is right if no cell of the file contains a line break."""
     try:
         values = list(map(float, cells))
         if all(map(math.isfinite, values)) and "_" not in "".join(cells):
@@ -226,6 +234,7 @@ def numbers(cells, path, name, absent=("", "null")):
 
 
 def shortened(words):
-    """Returns a text as a message shows it: at most LONGEST_SHOWN characters, with escapes if it is not printable."""
+    """Returns a text as a message shows it: at most LONGEST_SHOWN characters, and in quotes with escapes if it is not
+    printable, so that a damaged file cannot send commands to the terminal."""
     words = repr(words) if not words.isprintable() else words
     return words if len(words) <= LONGEST_SHOWN else words[: LONGEST_SHOWN - 1] + "…"

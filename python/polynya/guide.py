@@ -1,5 +1,6 @@
 """Writes the manual page of the program and its completion for bash. Both are made from the help that each command
-prints, so they need no text of their own: `python3 guide.py PROGRAM MAN_PAGE COMPLETION` (app/CMakeLists.txt)."""
+prints, so they need no text of their own: `python3 guide.py PROGRAM MAN_PAGE COMPLETION` (app/CMakeLists.txt). Where
+the form of the help changes, TITLES and ENTRY have to follow, or options are missing in both without a message."""
 import os
 import re
 import subprocess
@@ -10,8 +11,8 @@ import sys
 # meaning.
 TITLES = re.compile(r"^(Usage|Positionals|Subcommands|[A-Z][a-z ,]+):")
 ENTRY = re.compile(r"^  (\S.*?)(?:\s{2,}(.*))?$")
-# How bash completes a value of each kind, as an option of compgen: -f by files and folders, -d by folders alone. Values
-# of other kinds are not completed.
+# How bash completes a value of each kind, as an option of compgen: -f by files and folders, -d by folders alone. The
+# kinds are the words that stand for values in the help. Values of other kinds are not completed, except choices.
 FILES = {"FILE": "-f", "SCENE": "-f", "FLOES": "-f", "STUDY": "-f", "RUN": "-d", "DIR": "-d"}
 # The script for bash. completion() replaces PATHS by the names of all commands, VALUES by a line for each option with a
 # value, and KNOWN by a line for each command with its words.
@@ -48,9 +49,10 @@ complete -o filenames -F _polynya polynya
 
 class Command:
     """A command as its help describes it, with its subcommands. Members: `path`, the words that call it, empty for the
-    program itself; `begin`, the text before the usage; `rest`, the text after the lists; `options`, pairs of name and
-    meaning of its options and positionals; `commands`, its subcommands as Command. A subcommand whose help fails, such
-    as one in Python that lacks a package, has only a text that refers to its help."""
+    program itself; `begin`, the text before the usage; `rest`, the text after the lists; `options`, pairs of names with
+    the kind of value, as "--out DIR", and meaning, of its options and positionals; `commands`, its subcommands as
+    Command. A subcommand whose help fails, such as one in Python that lacks a package, has only a text that refers to
+    its help. If the help of the program itself fails, subprocess.CalledProcessError is raised."""
 
     def __init__(self, program, path=""):
         words = [program, *path.split(), "--help"]
@@ -97,9 +99,10 @@ def roff(words):
     return re.sub(r"^([.'])", r"\\&\1", words, flags=re.M)
 
 
-# Returns the text of the manual page. `program` is the Command of the program itself.
+# Returns the text of the manual page, in roff. `program` is the Command of the program itself, whose text after the
+# lists becomes the section EXIT STATUS; `version` is shown in the footer.
 def man_page(program, version):
-    def section(command):
+    def section(command):  # the text of a command, without its heading
         text = f".PP\n.nf\n{roff(command.begin.strip())}\n.fi\n"
         for name, meaning in command.options:
             text += f".TP\n.B {roff(name)}\n{roff(meaning)}\n"
@@ -112,7 +115,8 @@ def man_page(program, version):
     return text + f".SH EXIT STATUS\n{roff(program.rest)}"
 
 
-# Returns the script for bash. For each command it has the words that may follow, and how other words are completed.
+# Returns the script for bash. For each command it has the words that may follow, and how other words are completed. Of
+# several positionals the last one decides how they are completed.
 def completion(program):
     values, known = "", ""
     for command in [program, *program.all()]:
@@ -131,6 +135,8 @@ def completion(program):
     return COMPLETION.replace("PATHS", paths).replace("VALUES", values).replace("KNOWN", known)
 
 
+# Writes both files; existing ones are replaced. With only one name after the program only the manual page is written.
+# Raises CalledProcessError or OSError, which end the build, if the program cannot be run or a file not be written.
 def main():
     path, *files = sys.argv[1:]
     path = os.path.abspath(path)

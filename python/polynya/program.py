@@ -4,9 +4,10 @@ import sys
 
 
 def program():
-    """Returns the path of the program. The environment variable POLYNYA_PROGRAM is used if it is set. Otherwise the
-    program is searched beside this package: in a wheel, a build folder and an installation, in this order. If it is in
-    none of them, the result is the bare name, which the system searches in PATH when the program is started."""
+    """Returns the path of the program. The environment variable POLYNYA_PROGRAM is used if it is set and not empty,
+    without a check that such a file exists. Otherwise the program is searched beside this package: in a wheel, a build
+    folder and an installation, in this order. If it is in none of them, the result is the bare name, which the system
+    searches in PATH when the program is started; starting it raises FileNotFoundError if it is not there either."""
     given = os.environ.get("POLYNYA_PROGRAM")
     if given:
         return given
@@ -22,7 +23,8 @@ def program():
 
 def main():
     """The command `polynya` of a wheel: replaces this process by the program, with the same arguments. Commands that
-    are written in Python use the Python in which the wheel is installed, unless POLYNYA_PYTHON names another one."""
+    are written in Python use the Python in which the wheel is installed, unless POLYNYA_PYTHON names another one. It
+    does not return. Raises OSError if the program cannot be started. PATH is not searched here."""
     os.environ.setdefault("POLYNYA_PYTHON", sys.executable)
     own = program()
     os.execv(own, [own] + sys.argv[1:])

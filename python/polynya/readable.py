@@ -2,14 +2,16 @@
 
 
 def plain(value):
-    """A number rounded to three significant digits: 0.0123, 1250, 40000. Only values below 0.0001 have an exponent."""
+    """A number rounded to three significant digits: 0.0123, 1250, 40000. Only values of a magnitude below 0.0001 have
+    an exponent. NaN and infinity become "nan" and "inf"."""
     rounded = float(f"{value:.3g}")
     return f"{rounded:.0f}" if abs(rounded) >= 100 else f"{rounded:.4g}"
 
 
 def in_hours(value):
     """A duration given in hours, in seconds below 2 min, in minutes below 1 h, otherwise in hours: 90 s, 12 min, 3.5 h.
-    The limit for minutes is a little below 1 h, so that a duration which would round to 60 min is shown as 1 h."""
+    The limit for minutes is a little below 1 h, so that a duration which would round to 60 min is shown as 1 h. A
+    duration of 1000 h or more is not converted to days."""
     for most, unit, name in ((1 / 30, 3600, "s"), (0.9995, 60, "min")):
         if value < most:
             return f"{plain(value * unit)} {name}"
@@ -17,7 +19,9 @@ def in_hours(value):
 
 
 def force(value):
-    """A force given in N, in N, kN or MN with three significant digits: 850 N, 12.5 kN, 3.28 MN."""
+    """A force given in N, in N, kN or MN with three significant digits: 850 N, 12.5 kN, 3.28 MN. The unit follows from
+    the rounded magnitude, so 999.9 N is 1 kN. A negative force keeps its sign. From 1000 MN on the number has an
+    exponent."""
     for factor, name in ((1e6, "MN"), (1e3, "kN")):
         if abs(float(f"{value:.3g}")) >= factor:
             return f"{value / factor:.3g} {name}"

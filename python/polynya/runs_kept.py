@@ -8,21 +8,24 @@ from .study.case import DONE, STOPPED, is_finished
 
 
 class RunFailed(Exception):
-    """Raised if `polynya run` fails. The text has the scene's file, the exit code and the messages of the program."""
+    """Raised if `polynya run` ends with a code other than 0. The text has the scene's file, the code, which is minus
+    the number of a signal that killed the program, and the messages of the program."""
 
 
 def kept_run(program, folder, name, scene, has_map=True):
     """Returns the run folder `folder`/`name` of a scene, given as a dict, and runs the scene if needed. The run is
     reused if it is finished and `folder`/`name`.json, a copy of its scene, has not changed; the version of the program
-    that made it is not compared. `program` is the path of polynya, and `folder` must exist. With `has_map` a new run
-    gets a picture of its last frame. Raises RunFailed, or KeyboardInterrupt if the run was stopped."""
+    that made it is not compared. A run of another scene, an unfinished run or a damaged one is replaced by a new run
+    from the start. `program` is the path of polynya. `folder`, a pathlib.Path, must exist. With `has_map` a new run
+    gets a picture of its last frame (final.svg or final.png). Raises RunFailed if the program fails, KeyboardInterrupt
+    if the run was stopped by a signal, and OSError if the copy cannot be written or the program cannot be started."""
     path, run = folder / (name + ".json"), folder / name
     text = json.dumps(scene, indent=1)
     if is_finished(run) and path.is_file() and path.read_text(encoding="utf-8") == text:
         return run
     with writing(path) as file:
         file.write(text)
-    # Each run uses one thread, because the callers start several runs at the same time.
+    # Each run uses one thread, because the callers start several runs at the same time. Results do not depend on it.
     done = subprocess.run(
         [program, "run", path, "--out", run, "--overwrite", "--progress", "none", "--threads", "1"]
         + ([] if has_map else ["--no-map"]),

@@ -15,9 +15,12 @@ from polynya.scenery import BROKEN, CAME_UP, FRACTURES, LEAST_PIXELS, UNDER, WHO
 from .page import Page, Sheet
 from .subjects import all_labelled
 
-CROWD = 400  # number of cusps in a map above which all marks of cusps and of ground ice are smaller
+# Number of cusps in a map above which all marks of cusps and of ground ice are smaller (1 pt instead of 1.5 pt), so
+# that dense ones do not hide the ice. Larger: marks merge in some maps; smaller: they are hard to see in maps with few.
+CROWD = 400
 # Largest number of vertices of a map that are drawn as vectors. With more, the ice is a picture of pixels within the
-# SVG or PDF, and the smallest floes are squares; otherwise files would be large and slow to show.
+# SVG or PDF, and the smallest floes are squares; otherwise files would be large and slow to show. Larger: larger and
+# slower files; smaller: more maps whose ice cannot be enlarged sharply.
 MOST_VERTICES = 300_000
 
 
@@ -25,18 +28,19 @@ MOST_VERTICES = 300_000
 class Map:
     """A run at one time, and the title of its map."""
 
-    title: str
+    title: str  #: time, and in figures of several runs the run's name before it
     caption: str  #: line below the title with the numbers of fractures and floes
-    scenery: Scenery
+    scenery: Scenery  #: shapes of the run's floes, hulls and tracks, ready to draw
     frame: object  #: frame of the run
-    channel: list  #: polygons of the channel, each a list of rings
-    marks: dict  #: positions of fractures by kind
+    channel: list  #: polygons of the channel, each a list of rings [m]; empty if there is none
+    marks: dict  #: kind ("bend", "split", "grind") -> positions of the fractures until that time, n × 2 [m]
 
 
 def chosen_times(runs, wanted, count):
-    """Times of the maps [s]. These are `wanted`, if it has some. Otherwise, for one run: `count` times, evenly spaced,
-    including the end and, for more than two, the start; those between are whole seconds if the run is longer than
-    30 s. For several runs: infinity, which stands for the end of each."""
+    """Times of the maps [s]. These are `wanted`, if it has some. Otherwise, for one run (Labelled): `count` times, but
+    at least two, evenly spaced, including the end and, for more than two, the start; those between are whole seconds if
+    the run is longer than 30 s. Equal times are given once, so a run without a duration has one. For several runs:
+    infinity, which stands for the end of each."""
     if wanted:
         return list(wanted)
     if len(runs) > 1:
@@ -49,8 +53,8 @@ def chosen_times(runs, wanted, count):
 
 
 def channels_at(run, time):
-    """Polygons of the channels behind the ships at a time [s], as `polynya channel` measures them. Ships whose channel
-    cannot be measured are left out."""
+    """Polygons of the channels behind the ships at a time [s], as `polynya channel` measures them, each a list of
+    rings. Ships whose channel cannot be measured are left out."""
     polygons = []
     for ship in run.scene.get("ships", []):
         try:
@@ -61,8 +65,8 @@ def channels_at(run, time):
 
 
 def map_of(labelled, scenery, time, has_label):
-    """Returns the Map of a run at a time [s], which is limited to the run. `has_label` adds the run's name to its
-    title."""
+    """Returns the Map of a run, given as Labelled with its Scenery, at a time [s]. A time before or after the run is
+    replaced by its start or end. `has_label` adds the run's name to its title."""
     run = labelled.run
     frame = run.frame(min(max(time, run.start_time), run.end_time))
     marks = {kind: scenery.fractures(kind, -math.inf, frame.time)[0] for kind in FRACTURES}
@@ -118,7 +122,8 @@ def draw_map(axes, shown, window, page, points_per_metre):
 
 
 def legend_of(maps, scale):
-    """Legend entries, only for what at least one of the maps shows. Water is always there."""
+    """Legend entries of matplotlib, only for what at least one of the maps shows, in the order of the list. Water is
+    always there. `scale` is that of the page's style, for lines and marks."""
     kinds = {int(kind) for shown in maps for kind in shown.scenery.kinds(shown.frame)}
     has = lambda of: any(len(of(shown)) for shown in maps)
     area = lambda colour, words, edge=colours.EDGE: Patch(facecolor=colour, edgecolor=edge,
@@ -152,7 +157,9 @@ def legend_of(maps, scale):
 def draw(runs, page=Page(), at=(), window=None):
     """Draws a map of each run at each time of `at` [s], all of the same part of the world and in one scale, and returns
     the matplotlib figure. Without `at`, chosen_times() chooses. `window` is the part of the world to show, x0, y0, x1,
-    y1 [m]; without it, all that the maps and the starts of the runs contain is shown."""
+    y1 [m]; without it, all that the maps and the starts of the runs contain is shown. Times outside of a run are
+    replaced by its start or end. `runs`, at least one, are runs or Labelled ones. The title is that of the first run if
+    it is the only one, and a single map has its time there too. Raises FolderError if a file of a run is damaged."""
     runs = all_labelled(runs)
     times = chosen_times(runs, at, page.style.maps)
     is_alone = len(runs) == 1

@@ -10,10 +10,12 @@ from .subjects import all_labelled, colour_of, dash_of, mark_fractures, once, su
 # A ship that is slower than this has no course in the figure [m/s], because noise of its velocity would determine its
 # direction. Larger: more gaps in the curve of the course; smaller: the curve jumps where a ship stops.
 SLOW = 0.02
-# A curve with at least twice as many rows as this is thinned to every second, third, … row. Larger: larger files
-# without a visible difference; smaller: short peaks may be missed.
+# Number of rows of forces.csv from twice which on a curve is thinned to every second, third, … row, so that at least
+# this many points are left. Larger: larger files without a visible difference; smaller: short peaks may be missed.
 MOST_POINTS = 1500
-COURSE = (0, (1, 1.2))  # dash pattern of the course (matplotlib's form), to distinguish it from the heading
+# Dash pattern of the course, in matplotlib's form (offset, (dash, gap)) in line widths: dotted, to distinguish it from
+# the heading.
+COURSE = (0, (1, 1.2))
 
 
 def course_of(vx, vy, heading):
@@ -32,9 +34,10 @@ def moving(runs):
     return ships or subjects
 
 
-# Draws the speed in one panel, and heading and course in the other; each ship has a colour. If there is only one ship,
-# its cusps and splits are marked along the top. `runs` are runs, or Labelled ones with their own names and range of
-# times. Returns the figure, or None if there is neither a ship nor a structure, or if no run has a duration.
+# Draws the speed [m/s] in one panel, and heading and course [°, counter-clockwise from the x axis] in the other; each
+# ship has a colour. If there is only one ship, its cusps and splits are marked along the top. `runs` are runs, or
+# Labelled ones with their own names and range of times. Returns the figure, or None if there is neither a ship nor a
+# structure, or if no run has a duration.
 def draw(runs, page=Page()):
     runs = all_labelled(runs)
     subjects = moving(runs)

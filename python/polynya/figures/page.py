@@ -15,22 +15,25 @@ from polynya.files import naming
 
 from . import options
 
-MM = 1 / 25.4  # [inch]
-POINT = 25.4 / 72  # unit of font sizes [mm]
-MARGIN = 1.5  # margin of a figure at Style.scale 1 [mm]
-LINE = 1.3  # distance between lines of text, as a multiple of the font size; smaller: letters may touch
+MM = 1 / 25.4  # one millimetre in inches, the unit of matplotlib's figures [inch]
+POINT = 25.4 / 72  # one point, the unit of font sizes [mm]
+# Empty margin around a figure at Style.scale 1, and between its parts [mm]. Larger: less room for panels; smaller: text
+# may touch the edge.
+MARGIN = 1.5
+# Distance between lines of text, as a multiple of the font size; smaller: letters may touch; larger: less room is left.
+LINE = 1.3
 
 
 @dataclasses.dataclass(frozen=True)
 class Style:
-    """Style for one use of a figure. Sizes of text [pt]: numbers at ticks and notes, words, titles."""
+    """Style for one use of a figure. Its sizes are those on paper."""
 
     width: float  #: width of the figure [mm]
     tallest: float  #: height to which figures keep if they can, with heading and legend [mm]
-    small: float
-    text: float
-    title: float
-    dots: int  #: dots per inch of a PNG
+    small: float  #: size of numbers at ticks and of notes [pt]
+    text: float  #: size of labels, legends, captions and titles of panels [pt]
+    title: float  #: size of the title, which is bold [pt]
+    dots: int  #: dots per inch of a PNG, and of pixels within SVG and PDF
     maps: int  #: number of maps of one run if no times are given
 
     @property
@@ -49,9 +52,9 @@ STYLES = dict(zip(options.STYLES, (ONE_COLUMN, TWO_COLUMNS, SLIDES)))
 
 @dataclasses.dataclass(frozen=True)
 class Page:
-    """Style of a figure, and what replaces parts of it."""
+    """Style of a figure, and what replaces parts of it. Each page can be used for several figures."""
 
-    style: Style = TWO_COLUMNS
+    style: Style = TWO_COLUMNS  #: sizes and width, if nothing replaces them
     given_width: Optional[float] = None  #: replaces the width of the style [mm]
     title: Optional[str] = None  #: replaces the figure's own title; empty: neither title nor caption
 
@@ -112,7 +115,9 @@ class Page:
 
 class Sheet:
     """A figure while it is drawn, with the settings of its page. Within `with Sheet(page, title, caption) as sheet`,
-    make panels with `sheet.panels`, draw in them, then call `finish`, which returns the figure."""
+    make panels with `sheet.panels`, draw in them, then call `finish`, which returns the figure. The page's settings
+    hold for matplotlib as a whole within the block, and the former ones are restored after it. Figures are made without
+    pyplot, so they need not be closed. A caption is left out if the page has its own title."""
 
     def __init__(self, page, title="", caption=""):
         self.page = page
@@ -145,8 +150,9 @@ class Sheet:
         return width
 
     def wrapped(self, words, size, width, weight="normal"):
-        """Breaks a text into lines no wider than `width` [mm]: at spaces, otherwise after hyphens and underscores,
-        otherwise anywhere."""
+        """Breaks a text into lines no wider than `width` [mm] in a font of a size [pt], and returns them: at spaces,
+        otherwise after hyphens and underscores, otherwise anywhere. A blank text gives no line. A single letter may be
+        wider."""
         lines, line = [], ""
         for part in parts_of(words):
             if self.width_of((line + part).rstrip(), size, weight) <= width:
@@ -164,7 +170,8 @@ class Sheet:
 
     def title_panel(self, axes, number, panels, words, width):
         """Sets the title of the panel with this number from 0, of `panels`, in lines no wider than `width` [mm]. If
-        there are several panels it begins with a letter, as (a)."""
+        there are several panels it begins with a letter, as (a). Each line of `words` is broken on its own. Without
+        words and with one panel there is no title."""
         letter = f"({letters(number)}) " if panels > 1 else ""
         lines = [line for title in (letter + words).split("\n")
                  for line in self.wrapped(plain(title), self.page.style.text, width)]
@@ -190,7 +197,8 @@ class Sheet:
         return self.figure
 
     def _decorate(self, handles, notes):
-        """Makes the text around the panels; `_place` positions it."""
+        """Makes the text around the panels: heading, notes and legend. `_place` positions it, as their height is only
+        then known."""
         style, room = self.page.style, self.page.width - 2 * MARGIN * self.page.style.scale
         bold = lambda size: "bold" if size == style.title else "normal"
         self._above = [self.figure.text(0, 0, words, fontsize=size, fontweight=bold(size), in_layout=False)
@@ -200,7 +208,8 @@ class Sheet:
         self._key, self._key_height = self._legend(handles, room)
 
     def _place(self, panels_height):
-        """Sets the size of the figure and the positions of texts, legend and panels. It may be called again."""
+        """Sets the size of the figure and the positions of texts, legend and panels, for panels of a height [mm]. It
+        may be called again."""
         page, style, figure = self.page, self.page.style, self.figure
         margin = MARGIN * style.scale
         head = sum(text.get_fontsize() for text in self._above) * POINT * LINE + (margin if self._above else 0)
@@ -231,7 +240,8 @@ class Sheet:
         return panels_height - filled / self.figure.dpi / MM - 1.5 * self.page.style.scale
 
     def _heading(self, width):
-        """Lines of title and caption with their sizes."""
+        """Lines of title and caption with their sizes [pt], no wider than `width` [mm]. There are no lines if the
+        page's title is an empty text."""
         style, given = self.page.style, self.page.title
         if given == "":
             return []
@@ -261,8 +271,8 @@ class Sheet:
 
 
 def set_log(axis, low, high):
-    """Makes an axis logarithmic for values from low to high, with plain numbers. The fewer decades there are, the more
-    numbers each has."""
+    """Makes an axis (axes.xaxis or axes.yaxis) logarithmic for values from low to high, both above 0, with plain
+    numbers. The fewer decades there are, the more numbers each has. The limits of the axis are not set."""
     axis.axes.set(**{f"{axis.axis_name}scale": "log"})
     axis.set_major_locator(LogLocator(subs=(1, 2, 5) if high < 20 * low else (1, 3) if high < 100 * low else (1,)))
     axis.set_major_formatter("{x:g}")
@@ -286,22 +296,24 @@ def plain(words):
 
 
 def in_words(value):
-    """A number with four digits, and powers of ten as superscripts."""
+    """A number with four significant digits as a text, with powers of ten as superscripts, such as 1.5 · 10⁶, for
+    numbers from 10⁴ on and below 10⁻⁴."""
     mantissa, _, power = f"{value:.4g}".replace("-", "−").partition("e")
     raised = power.lstrip("+").replace("−0", "−").lstrip("0").translate(str.maketrans("−0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
     return mantissa + (" · 10" + raised if power else "")
 
 
 def letters(number):
-    """The letter of a panel: a … z, aa, ab …"""
+    """The letter of a panel by its number from 0: a … z, aa, ab …"""
     return (letters(number // 26 - 1) if number >= 26 else "") + chr(ord("a") + number % 26)
 
 
 def save(figure, stem, formats, dots=300):
     """Writes a figure to stem.svg and so on, for each of `formats` (svg, pdf, png), and yields each path after its file
-    was written. `dots` per inch are those of PNGs and of pixels within the other formats. Each file is written
-    completely or not at all, and replaces a link of that name. The same figure gives the same bytes, so dates and the
-    name of the software are left out."""
+    was written; nothing is written until the caller takes the paths. `dots` per inch are those of PNGs and of pixels
+    within the other formats. Each file is written completely or not at all, and replaces a file or link of that name.
+    The same figure gives the same bytes, so dates and the name of the software are left out. Raises KeyError for
+    another format, and OSError, with the file's name, if a file cannot be written; the files before it stay."""
     for suffix in formats:
         path = f"{stem}.{suffix}"
         draft = f"{path}.{os.getpid()}.tmp"

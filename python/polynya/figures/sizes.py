@@ -12,7 +12,7 @@ from .subjects import all_labelled, colour_of
 def sizes_at(run, time):
     """Returns three arrays for the floes that float at a time [s], in ascending order of size: the size √area [m], the
     number of floes of at least that size, and their percentage of the area of all floating floes. Pieces under hulls
-    are left out. The arrays are empty if no floe floats."""
+    are left out, and so are floes whose recorded area is 0. The arrays are empty if no floe floats."""
     births = run.births
     is_afloat = (births["born_s"] <= time) & (time < births["died_s"]) & (time < births["went_under_s"])
     areas = numpy.sort(births["area_m2"][is_afloat])
@@ -22,7 +22,9 @@ def sizes_at(run, time):
 
 
 # Draws both panels, with a colour for each run; its start is dashed and its end is solid. `runs` are runs, or Labelled
-# ones with their own names and range of times. Returns the figure, or None if no floe floats at any of these times.
+# ones with their own names and range of times; of these the first and the last time are drawn. A run without a floe at
+# a time has no curve for it, but a legend entry. Returns the figure, or None if no floe floats at any of these times.
+# The panels are beside each other if each can be 70 mm wide (times the style's scale), otherwise below each other.
 def draw(runs, page=Page()):
     runs = all_labelled(runs)
     with Sheet(page, "Floe sizes", f"{', '.join(run.label for run in runs)}; size is the root of the area.") as sheet:

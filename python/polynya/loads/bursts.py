@@ -14,14 +14,19 @@ import numpy
 #: have fewer events each, so that the test finds less.
 PARTS = 20
 #: Gaps are tried from the length of a part halved this number of times (1/64), and doubled up to the whole part.
-#: Larger: shorter gaps are tried first, which keep more events.
+#: Larger: shorter gaps are tried first, which keep more events, but each gap takes two tests. The gap 0 is tried
+#: before.
 HALVINGS = 6
-#: Number of random samples of a test. The smallest p value is 1/500. More samples: p is more exact and takes longer.
+#: Number of random samples of a test. The smallest p value is 1/500, which must be below UNLIKE. More samples: p is
+#: more exact and takes longer.
 SIMULATED = 499
 #: Largest fraction of a run's time that bursts and the gaps after them may cover [-]. Larger: long gaps may join peaks
 #: that are independent; smaller: gaps with which the tests would pass may not be allowed.
 COVERED = 0.25
-UNLIKE = 0.01  #: with a p value below this, parts of the record differ, and a fit to the events is refuted
+#: With a p value below this, parts of the record differ, and a fit to the events is refuted [-]. Each of the two or
+#: three tests of a gap refutes independent peaks by chance this often. Larger: longer gaps, fewer events and more
+#: refuted fits; smaller: peaks that depend on each other may count as independent, so that intervals are too narrow.
+UNLIKE = 0.01
 
 
 @dataclasses.dataclass(frozen=True)
@@ -46,7 +51,8 @@ class Record:
 
     def part_of(self, cases, times):
         """Returns for each event the number of the part of the record in which it is, from 0. Each case is divided into
-        `parts_of_case` parts of equal length."""
+        `parts_of_case` parts of equal length. `cases` and `times` [s] are arrays with the case and the time of each
+        event. An event outside of its case's time belongs to the nearest part."""
         parts = self.parts_of_case
         share = (times - self.starts[cases]) / self.lengths[cases]
         return cases * parts + numpy.clip((share * parts).astype(int), 0, parts - 1)
@@ -64,7 +70,8 @@ class Record:
 
 
 def record_of(loads):
-    """Returns the Record of a gather.Loads. Cases that end before the first time that counts are left out."""
+    """Returns the Record of a gather.Loads. Cases that end before the first time that counts are left out, with their
+    peaks. The record of no case has empty arrays."""
     cases = [case for case in loads.cases if case.hours > 0]
     numbers = numpy.array([case.number for case in cases], dtype=int)
     place = {number: at for at, number in enumerate(numbers.tolist())}
@@ -79,13 +86,14 @@ def record_of(loads):
 class Events:
     """The largest peaks of bursts above a threshold, and the results of the tests."""
 
-    forces: numpy.ndarray  #: [N]
-    gap: float  #: [s]
+    forces: numpy.ndarray  #: largest peak of each burst, in the order of cases and times [N]
+    gap: float  #: successive peaks at most this long apart are one burst [s]
     #: p value of their numbers in the parts of the record. If cases are divided into parts, the numbers in whole cases
     #: are tested too, and the smaller p value counts.
     counts_p: float
     sizes_p: float  #: p value of their sizes: in the cases if there are several, otherwise in the parts
-    #: Fraction of a run's time that bursts and the gaps after them cover, in the run where it is largest.
+    #: Fraction of a run's time that bursts and the gaps after them cover, in the run where it is largest; 0 without
+    #: events. It may exceed 1, because the gap after the last burst may go beyond the end.
     covered: float
 
     # True if neither test finds that parts of the record differ.
@@ -96,8 +104,8 @@ class Events:
 
 def counts_p(counts, lengths, rng):
     """Returns the p value of the numbers of events in parts of these lengths [s]: the fraction of SIMULATED samples,
-    with the same number of events at random times, that are at least as uneven (chi-squared distance). 1 without
-    events."""
+    with the same number of events at random times, that are at least as uneven (chi-squared distance), where the data
+    count as one more sample. `rng` is numpy's generator, which advances. The result is 1 without events."""
     total, share = int(counts.sum()), lengths / lengths.sum()
     if total == 0:
         return 1.0
@@ -111,7 +119,8 @@ def counts_p(counts, lengths, rng):
 def sizes_p(forces, groups, rng):
     """Returns the p value of the sizes of events in groups: the fraction of random assignments of the events to the
     groups in which the groups differ at least as much (Kruskal and Wallis's distance of ranks). `groups` has the number
-    of the group of each event. The result is 1 if there is only one group, or if each group has one event."""
+    of the group of each event. The result is 1 if there is only one group, if each group has one event, or without
+    events."""
     _, groups = numpy.unique(groups, return_inverse=True)
     number = numpy.bincount(groups)
     if len(number) < 2 or number.max() < 2:
@@ -128,7 +137,8 @@ def sizes_p(forces, groups, rng):
 
 def events_above(record, threshold, gap, seed=0):
     """Returns the Events of the peaks above a threshold [N] for a gap [s], with the results of the tests, which depend
-    on `seed` through their random samples."""
+    on `seed` through their random samples. Peaks of different cases never form one burst. Without a peak above the
+    threshold the Events are empty and pass."""
     above = record.forces > threshold
     cases, times, forces = record.cases[above], record.times[above], record.forces[above]
     is_first = numpy.ones(len(times), dtype=bool)

@@ -13,21 +13,24 @@ from polynya.readable import in_hours
 
 from . import bursts
 
-REFUTED = 0.05  #: a fit with a smaller p value of extremes.goodness() is refuted; larger: more fits are refuted
+#: A fit with a smaller p value of extremes.goodness() is refuted [-]; of right fits, at most about 5 % are. Larger:
+#: more right fits are refuted and give no return values; smaller: more wrong ones are used.
+REFUTED = 0.05
 #: Largest shape of a tail that gives return values [-]. From a shape of 0.5 on, the peaks of the fitted tail have an
 #: infinite variance, so that a few more peaks may change a return value by any amount. Larger: values of short records
 #: of heavy tails are given, which are several times the true ones.
 HEAVIEST = 0.5
 #: Default half of an interval relative to its value, for which the required length of record is stated [-]. Smaller:
-#: longer records are required.
+#: longer records are required. The default of --half-width is the same number, in loads/options.py.
 HALF_WIDTH = 0.2
 
 
 def exceedance(loads, level=extremes.LEVEL):
     """Returns columns of the exceedance of a load: force of each peak in descending order [N], number of peaks that are
     at least as large, and their rates per hour and per kilometre sailed. The limits of a rate contain it with the
-    probability `level` if peaks are independent (exact Poisson limits [Garwood1936]). A rate is left out if the record
-    has no such length."""
+    probability `level` if peaks are independent (exact Poisson limits [Garwood1936]); as peaks of one jam follow each
+    other, the true uncertainty is larger. A rate is left out if the record has no such length, as the rate per
+    kilometre of a structure."""
     force = numpy.sort(loads.forces)[::-1]
     count = numpy.arange(1, len(force) + 1)
     low = stats.chi2.ppf((1 - level) / 2, 2 * count) / 2
@@ -44,8 +47,8 @@ def exceedance(loads, level=extremes.LEVEL):
 class Fit:
     """A tail fitted to the events above a threshold, and the tests that may refute it."""
 
-    tail: extremes.Tail
-    events: bursts.Events
+    tail: extremes.Tail  #: distribution of the events above the threshold
+    events: bursts.Events  #: the independent peaks to which the tail was fitted
     goodness_p: float  #: common p value of the three tests of extremes.goodness()
 
     @property
@@ -81,10 +84,11 @@ class Fit:
 class Estimate:
     """The fits that were tried, in ascending order of the threshold. The last one is used unless it is refuted."""
 
-    fits: list
-    hours: float  #: length of the record
+    fits: list  #: list of Fit; empty if there was none to try
+    hours: float  #: length of the record [h]
     why: str  #: reason why no fit can be used; empty if one can
 
+    # The fit that gives return values; None if none can be used (`why`).
     @property
     def used(self) -> Optional[Fit]:
         return None if self.why else self.fits[-1]
@@ -92,7 +96,8 @@ class Estimate:
 
 def thresholds(forces, least=None):
     """Thresholds to try until a fit is not refuted [N]: only `least` if it is given, otherwise those that leave all
-    peaks except the smallest, half of them, a quarter and so on, as long as about extremes.LEAST_PEAKS are left."""
+    peaks except the smallest, half of them, a quarter and so on, as long as about extremes.LEAST_PEAKS are left.
+    `forces` are those of all peaks [N]. Without peaks the list is empty."""
     if least is not None:
         return [float(least)]
     ordered = numpy.sort(forces)
@@ -131,7 +136,8 @@ def estimate(loads, least=None):
 
 
 def too_few(record, least):
-    """Says that there are too few peaks for a fit, and what to do."""
+    """Says that there are too few peaks of a bursts.Record for a fit, and what to do. `least` is the threshold that the
+    user gave [N], or None."""
     count = int(numpy.count_nonzero(record.forces > (least or 0)))
     above = f" above {least:g} N" if least else ""
     lower = ", or give a smaller --least" if least else ""
@@ -149,12 +155,14 @@ class Answer:
     value_N: Optional[float]  #: None if it is not given
     low_N: Optional[float]  #: limits of its interval, which holds extremes.LEVEL
     high_N: Optional[float]
-    is_extrapolated: bool  #: true if the period is longer than those for which the intervals were tested
-    seen_low_N: float  #: limits between observed peaks, without a fit
+    is_extrapolated: bool  #: true if a value is given for a longer period than the intervals were tested for
+    seen_low_N: float  #: limits of the value between observed peaks, without a fit; 0 if too few peaks exceed it
     seen_high_N: float  #: infinite if too few peaks were observed for it
-    #: Length of record for an interval of the requested half-width; None if no fit gives it.
+    #: Length of record for an interval of the requested half-width [h]; None if no fit gives it.
     record_needed_h: Optional[float]
-    least_record_h: Optional[float]  #: a tenth of the period; None without a fit, whose value it could allow
+    #: Least length of record for which the period is not too long: a tenth of it (extremes.FARTHEST) [h]. None without
+    #: a fit that could give the value.
+    least_record_h: Optional[float]
     reasons: tuple = ()  #: reasons why there is no value
 
     @property
@@ -164,7 +172,8 @@ class Answer:
 
 
 def standard_periods(hours):
-    """The default periods: the length of the record and ten times that length [h]."""
+    """The default periods: the length of the record and ten times that length (extremes.FARTHEST), the longest for
+    which a value is given without --extrapolate [h]."""
     return [hours, extremes.FARTHEST * hours]
 
 
@@ -179,7 +188,7 @@ def returns(loads, hours=None, least=None, extrapolate=False, half_width=HALF_WI
 
 
 def too_far(found, period):
-    """Says that a period is too long for a record, and what to do."""
+    """Says that a period [h] is too long for the record of an Estimate, and what to do."""
     most, needed = extremes.FARTHEST * found.hours, period / extremes.FARTHEST
     return (f"a return period may be at most {extremes.FARTHEST:g} times the record, here {in_hours(most)}: record "
             f"{in_hours(needed)} or more, ask for shorter periods (--returns), or give --extrapolate for a value that "
@@ -187,7 +196,7 @@ def too_far(found, period):
 
 
 def too_near(period):
-    """Says that a period is too short for a fit, and what to do."""
+    """Says that a period [h] is too short for a fit, and what to do."""
     return (f"peaks above the fit's threshold come more often than once in {in_hours(period)}: ask for a longer period "
             "(--returns), or read the value from the peaks seen")
 
@@ -206,7 +215,9 @@ def reasons_of(found, period, is_far):
 def answer(found, forces, period, extrapolate=False, half_width=HALF_WIDTH):
     """Returns the Answer for a return period [h] from the Estimate `found` and the `forces` of all peaks [N]. With
     `extrapolate`, periods longer than extremes.FARTHEST records are answered too. `half_width` is that of the interval
-    for which the needed length of record is stated, as a fraction of the value."""
+    for which the needed length of record is stated, as a fraction of the value. The record must have a length
+    (found.hours > 0). If a reason speaks against a value, the Answer has the reasons and the limits from observed
+    peaks, which are those of the last fit's events, or of all peaks without a fit."""
     records = period / found.hours
     is_far = records > extremes.FARTHEST * (1 + 1e-9)
     tail, reasons = found.used and found.used.tail, tuple(reasons_of(found, period, is_far and not extrapolate))
@@ -223,7 +234,9 @@ def answer(found, forces, period, extrapolate=False, half_width=HALF_WIDTH):
 def panels(loads):
     """Returns a row for each panel that ice loaded: its peaks and, if panels.csv has it, its force in the largest step,
     its mean over the whole time, the time under load, and the largest mean pressure of an interval. Rows of panels are
-    separate in one column; peaks belong to columns."""
+    separate in one column; peaks belong to columns. "panel" is the number of the column from the stem (0 to port, -1 to
+    starboard), "from_m" and "to_m" are its limits along the waterline [m], and forces are in N. A column without a peak
+    has 0 for its peaks. Without panels.csv rows have no members of row_of()."""
     number = loads.panel_of(loads.peaks["arc_m"])
     rows = []
     table = loads.panels
@@ -242,7 +255,8 @@ def panels(loads):
 
 def row_of(loads, panel, row):
     """Members of the table of panels for one row of a panel, from panels.csv: forces [N], the mean of which is taken
-    over the whole record, time under load [s] and largest pressure [Pa]."""
+    over the whole record, time under load [s] and largest pressure [Pa]. The record must have a length. "largest_N" is
+    the largest force in one time step, and the pressure is a mean over the panel and an interval of panels.csv."""
     table = loads.panels
     chosen = (table["panel"] == panel) & (table["row"] == row)
     force = table["force_N"][chosen]

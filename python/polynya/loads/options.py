@@ -16,7 +16,9 @@ Exit codes: 0 done, 2 usage, 5 input/output, or numpy, scipy or matplotlib is mi
 
 
 def command_line():
-    """Returns the parser of the command. It checks the values, and stores numbers and lists instead of texts."""
+    """Returns the parser of the command. It checks the values, and stores numbers and lists instead of texts. A value
+    that is not allowed ends the process with a message and exit code 2. An option that is not given is None, unless it
+    has a default here; gather() and estimate then choose the value that the help states."""
     parser = Parser("polynya loads", "Peaks of the ice force by place on the hull: statistics, return values, figures",
                     EXAMPLES, REST)
     parser.add("folder", "Folder of a run or of a study", metavar="RUN|STUDY")

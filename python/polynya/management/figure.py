@@ -10,8 +10,11 @@ from .measures import loads_on, rows_of
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")  # of the first six runs [Okabe2008]
 REST = "#bbbbbb"  # colour of all further runs, which share one entry of the legend
-LONGEST = 24  # largest length of a run's name in the title of a panel [characters]; longer ones are shortened
-HEIGHT = 62  # wanted height of a row of panels on paper [mm]; less if the page is too short
+# Largest length of a run's name in the title of a panel [characters]; longer ones are shortened. Larger: the title
+# needs more lines, so that panels become lower; smaller: names of runs may not be distinguished.
+LONGEST = 24
+# Wanted height of a row of panels on paper, for text of 8 pt [mm]; it is less if the page is too short for all rows.
+HEIGHT = 62
 
 
 def coloured(cases):
@@ -22,14 +25,16 @@ def coloured(cases):
 
 def at_least(passage, weights):
     """Returns the sizes √area of the floes of a passage in ascending order [m], and for each size the sum of the
-    weights of the floes of at least that size. With weights of 1 this is a number of floes, with areas an area."""
+    weights of the floes of at least that size. With weights of 1 this is a number of floes, with areas an area. Both
+    arrays are empty if no floe passed."""
     order = numpy.argsort(passage.sizes)
     return passage.sizes[order], numpy.cumsum(weights[order][::-1])[::-1]
 
 
-# Draws the number of floes of at least each size, and their share of the ice, in two panels. Here and in the panels
-# below, dashed lines and crosses are the upstream gate, solid lines and circles the gate near the body. A grey line
-# marks the size from which floes count as large (`gates.size`) in the first case.
+# Draws the number of floes of at least each size, and their share of the ice that passed the gate, in two panels. A
+# gate that no floe passed has no line. Here and in the panels below, dashed lines and crosses are the upstream gate,
+# solid lines and circles the gate near the body. A grey line marks the size from which floes count as large
+# (`gates.size`) in the first case.
 def draw_sizes(axes, cases):
     number, share = axes
     for colour, case in coloured(cases):
@@ -47,7 +52,8 @@ def draw_sizes(axes, cases):
 
 
 # Draws the percentage of time in which each load on the body is exceeded: solid by ice, dotted by the mooring. Loads of
-# at most 1 kN are left out of the curves, because the axis is logarithmic; the percentages refer to the whole time.
+# at most 1 kN are left out of the curves, because the axis is logarithmic; the percentages refer to the whole time
+# after the start of the gates. A load that exceeds 1 kN in fewer than two rows of forces.csv has no curve.
 def draw_exceedance(axes, cases):
     for colour, case in coloured(cases):
         for loads, dash in zip(loads_on(case.run, case.gates).values(), ("-", ":")):
@@ -60,8 +66,8 @@ def draw_exceedance(axes, cases):
 
 
 def draw_tracks(axes, case, colour):
-    """Draws the tracks over ground of the ships that manage ice in one run, and the waterline of the protected body at
-    its end."""
+    """Draws the tracks over ground of the ships that manage ice in one run, over the whole run, and the waterline of
+    the protected body at its end. Without such ships only the waterline is drawn."""
     for ship in managing(case.run.scene):
         rows = rows_of(case.run, ship)
         axes.plot(rows["x_m"], rows["y_m"], linewidth=0.6, color=colour)
@@ -71,7 +77,8 @@ def draw_tracks(axes, case, colour):
     axes.set(xlabel="x, m", ylabel="y, m", aspect="equal")
 
 
-# Draws the size of each floe that passed a gate over its position across the drift.
+# Draws the size of each floe that passed a gate [m] over its position across the drift [m], to port of the upstream
+# direction; 0 is the body's origin.
 def draw_across(axes, cases):
     for colour, case in coloured(cases):
         for passage, mark, alpha in ((case.before, "x", 0.4), (case.after, "o", 0.8)):
@@ -103,8 +110,9 @@ def legend_of(cases):
 
 
 def draw_runs(cases, page):
-    """Draws all panels on a page (figures.page.Page) and returns the figure. The caption and the grey line are those of
-    the first case. Tracks are drawn for the first run in which a ship manages ice."""
+    """Draws all panels on a page (figures.page.Page) and returns the figure. `cases` has at least one Case. The caption
+    and the grey line are those of the first case. Tracks are drawn for the first run in which a ship manages ice, or
+    for the first run if none does."""
     gates = cases[0].gates
     caption = (f"Floes through gates {gates.upstream:g} m and {gates.near:g} m upstream of {gates.body}; grey line: "
                f"floes of {gates.size:g} m")

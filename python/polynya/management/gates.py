@@ -17,8 +17,9 @@ from .drift import free_drift
 # Speed of the free drift below which the upstream direction stays as it was [m/s]. It must be kLeastDrift of
 # simulation/ship/manage.cpp, so that gates turn as the patterns do.
 LEAST_DRIFT = 0.02
-# Number of equal parts of a gate's width in which managed_width looks for large floes. More parts make that width
-# finer.
+# Number of equal parts of a gate's width in which managed_width looks for large floes; even, so that the middle of the
+# gate is between two parts. More parts make that width finer, without effect on other measures; with fewer it is
+# smaller, because a part that a floe touches counts as occupied.
 BINS = 40
 
 
@@ -56,7 +57,8 @@ class Passage:
 
 
 def managing(scene):
-    """{ship: settings of its pilot `manage`} of the ships that manage ice."""
+    """{ship: settings of its pilot `manage`} of the ships that manage ice; empty if none does. `scene` is scene.json of
+    a run."""
     pilots = {ship["name"]: (ship.get("pilot") or {}).get("manage") for ship in scene["ships"]}
     return {name: pilot for name, pilot in pilots.items() if pilot}
 
@@ -76,14 +78,16 @@ def protected_body(scene):
 
 
 def reach(waterline):
-    """Distance from the frame's origin to the farthest point of the waterline [m]."""
+    """Distance from the frame's origin to the farthest point of the waterline [m], an array of points in the body's
+    frame. It is taken as the body's radius."""
     return float(numpy.hypot(*waterline.T).max())
 
 
 def gates_of(run, given):
     """Gates of a run: the given ones, otherwise derived from the patterns of its pilots. The upstream gate is then one
     radius of the body beyond the farthest pattern, the near one at 1.5 radii, and both are as wide as the widest
-    pattern. Raises InputError if a gate is neither given nor derivable, or if near is not before upstream."""
+    pattern. A given value is always kept, also if it is narrower or nearer than the patterns. Raises InputError if the
+    run has no such body, if a gate is neither given nor derivable, or if near is not before upstream."""
     scene = run.scene
     body = given.get("body") or protected_body(scene)
     if body not in run.waterlines:
@@ -116,9 +120,9 @@ def depth_of(pilot):
 
 
 def axes_over_time(run):
-    """Returns two arrays with a row per frame: the unit vector upstream, and the distance that free ice drifts until
-    the next frame [m], 0 for the last one. Both are those of the middle of the interval. As long as the drift is slower
-    than LEAST_DRIFT, the direction is the last one, and the x axis at the start."""
+    """Returns two arrays with a row per frame of the run: the unit vector upstream, and the distance that free ice
+    drifts until the next frame [m], 0 for the last one. Both are those of the middle of the interval. As long as the
+    drift is slower than LEAST_DRIFT, the direction is the last one, and the x axis at the start."""
     upstream, ways = [], []
     last = numpy.array([1.0, 0.0])
     times = run.times
@@ -132,8 +136,9 @@ def axes_over_time(run):
 
 
 def places_over_time(run, body):
-    """Yields for each frame the ids of the floes that are not under a hull, and the positions of their centres of mass
-    relative to the body, x upstream and y to port of that direction [m]."""
+    """Yields for each frame the ids of the floes that exist and are not under a hull, and the positions of their
+    centres of mass relative to the body's origin, x upstream and y to port of that direction [m]. `body` is its
+    name."""
     number = run.ship_names.index(body)
     upstream, _ = axes_over_time(run)
     births = run.births
@@ -148,7 +153,10 @@ def places_over_time(run, body):
 def passages(run, gates):
     """Returns the Passages of the upstream gate and of the gate at the body. A floe passes once, when its centre of
     mass does between two frames. Pieces of a floe that breaks before the gate pass on their own; those of a floe that
-    breaks after it do not count again. Passing beside the gate, or before gates.start, does not count."""
+    breaks after it do not count again. Passing beside the gate, or before gates.start, does not count, and uses up the
+    one passage of the floe too. The position in the gate is interpolated between the two frames, but the time is that
+    of the second one, so both depend on the interval of frames. Ice that starts between the gates and the body never
+    passes the gate upstream of it."""
     count = len(run.births["floe_id"])
     parents = run.births["parent_id"]
     lines = (gates.upstream, gates.near)
@@ -176,7 +184,7 @@ def passages(run, gates):
 
 
 def passage_of(run, rows):
-    """The Passage of rows (floe, time, position across)."""
+    """The Passage of rows (floe, time [s], position across [m])."""
     rows = sorted(rows)
     floes = numpy.array([row[0] for row in rows], dtype=int)
     return Passage(floes, numpy.array([row[1] for row in rows]), numpy.array([row[2] for row in rows]),
@@ -184,8 +192,9 @@ def passage_of(run, rows):
 
 
 def managed_width(passage: Passage, gates) -> float:
-    """Width of the stretch around the middle of the gate in which no floe of at least gates.size passed [m], in
-    steps of width / BINS; 0 if one passed through the middle of the gate. A floe occupies √area across the gate."""
+    """Width of the stretch around the middle of the gate in which no floe of at least gates.size passed [m], in steps
+    of width / BINS; 0 if one passed through the middle of the gate, and the whole width if none passed at all. A floe
+    occupies √area across the gate."""
     edges = numpy.linspace(-0.5 * gates.width, 0.5 * gates.width, BINS + 1)
     is_free = numpy.ones(BINS, dtype=bool)
     for y, size in zip(passage.across, passage.sizes):
@@ -198,7 +207,8 @@ def managed_width(passage: Passage, gates) -> float:
 
 def distribution(passage: Passage, edges: Optional[numpy.ndarray] = None):
     """Returns (edges, numbers, areas): the number of floes and their area [m²] with sizes between successive edges [m].
-    By default there are ten classes per decade from 1 to 1000 m; other sizes are left out."""
+    `edges` are ascending sizes √area; by default there are ten classes per decade from 1 to 1000 m. Other sizes are
+    left out. There is one number fewer than edges."""
     edges = numpy.geomspace(1, 1000, 31) if edges is None else edges
     numbers, _ = numpy.histogram(passage.sizes, edges)
     areas, _ = numpy.histogram(passage.sizes, edges, weights=passage.areas)

@@ -1,11 +1,12 @@
 """The command line of `polynya management`.
 
-Options for the gates have no default here. gates.gates_of computes the values that are not given; the help states
-them."""
+Options for the gates (--body, --upstream, --near, --width, --size, --from) have no default here: those that are not
+given are None. gates.gates_of computes the values that are not given; the help states them. For a study these options
+and --label are refused, because its cases were measured with the gates of its own collect.management."""
 from ..arguments import Parser, choice, choices, number
 from ..figures.options import FORMATS, STYLES
 
-# Examples in the help, without the word "polynya", and the text after the options.
+# Examples in the help, without the word "polynya", and (REST) the text after the options.
 EXAMPLES = (
     "management runs/ice-management",
     "management runs/managed runs/unmanaged --body drillship --upstream 700 --width 300",
@@ -19,6 +20,8 @@ study, and matplotlib for the figures (./setup.sh python).
 
 
 def command_line():
+    """Returns the parser of the command. A value that is not allowed ends the process with a message and exit code 2.
+    Distances must be above 0 and below 1e6 m."""
     meaning = "Measure the effect of ice management, and rank the patterns of a study"
     parser = Parser("polynya management", meaning, EXAMPLES, REST)
     parser.add("folders", "Run folders, which are compared, or the folder of a study", metavar="FOLDER", nargs="+")

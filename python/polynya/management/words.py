@@ -6,24 +6,29 @@ from ..readable import plain
 from . import cautions, ranking
 from .study import MEASURES, UNMANAGED
 
+# For the unit at the end of a measure's meaning in MEASURES, the units in which it may be printed, largest first, with
+# the factors by which its values are divided.
 UNITS = {"[N]": ((1e6, "MN"), (1e3, "kN"), (1, "N")), "[m]": ((1, "m"),)}
 
 
 def unit_of(measure, most):
-    """Factor and unit in which values up to `most` are easy to read."""
+    """Factor and unit in which values of a measure up to `most` are easy to read: the largest unit of UNITS that is at
+    most `most`, otherwise the smallest one. Values are divided by the factor."""
     choices = UNITS[MEASURES[measure][-3:]]
     return next(((factor, name) for factor, name in choices if most >= factor), choices[-1])
 
 
 def interval(mean, factor=1.0):
-    """"12.3 ± 0.45": a mean and half of its interval, both divided by `factor`. Without ± for a single field of ice."""
+    """"12.3 ± 0.45": a ranking.Mean and half of its interval, both divided by `factor`, with three and two significant
+    digits. Without ± for a single field of ice."""
     half = "" if mean.half is None else f" ± {float(f'{mean.half / factor:.2g}'):.6g}"
     return f"{plain(mean.value / factor)}{half}"
 
 
 def left(place):
-    """The load with management as a percentage of the load without, with limits in brackets. No limits are given for a
-    single field of ice, or if the load without management may be 0."""
+    """The load, or size, with management as a percentage of that without, with limits in brackets. No limits are given
+    for a single field of ice, or if the load without management may be 0. Empty for the pattern without management, or
+    if the study has none."""
     if place.left is None:
         return ""
     ratio, low, high = place.left
@@ -32,7 +37,8 @@ def left(place):
 
 
 def lost(condition, name):
-    """Ice that left the scene by a rule: means over fields of its area and of its fraction of all ice at the start."""
+    """Ice that left the scene by a rule under the pattern `name`: means over fields of its area and of its fraction of
+    all ice at the start. Empty if it was not measured."""
     found = condition.lost.get(name)
     if not found:
         return ""
@@ -41,6 +47,7 @@ def lost(condition, name):
 
 
 def listed(names):
+    """Names in a sentence: "a, b and c". If a name has a comma itself, "a; b; c". There must be at least one name."""
     if len(names) == 1:
         return names[0]
     if any("," in name for name in names):
@@ -49,7 +56,8 @@ def listed(names):
 
 
 def not_told_apart(places):
-    """Sentences on patterns between which the study finds no significant difference."""
+    """Sentences on patterns, given as ranking.Place, between which the study finds no significant difference (LEVEL of
+    ranking.py). No sentence for fewer than two patterns."""
     if len(places) < 2:
         return []
     if all(place.mean.half is None for place in places):
@@ -67,7 +75,8 @@ def hit(condition, name):
 
 
 def of_first(condition, places, body):
-    """A sentence if the first pattern of a ranking is one whose ship hit the protected body."""
+    """A list with a sentence if the first pattern of a ranking is one whose ship hit the protected body, because small
+    loads then say nothing; otherwise an empty list. `places` has at least one."""
     hits = cautions.hits_of(condition, places[0].name)
     if not hits or not hits.hit:
         return []
@@ -77,7 +86,9 @@ def of_first(condition, places, body):
 
 def table_of(condition, measure):
     """Rows of text: rank, pattern, mean, remaining load, benefit, lost ice, fields with a hit of a ship; the unit of
-    the means; and the places of the ranking, the smallest mean first. All are empty if the measure ranks nothing."""
+    the means; and the places of the ranking, the smallest mean first. All are empty if the measure ranks nothing. The
+    first row is the heading. The columns that compare with no management are left out if the study has none, and the
+    column of hits is left out if there were none."""
     places = condition.ranked(measure)
     if not places:
         return [], "", places
@@ -94,6 +105,7 @@ def table_of(condition, measure):
 
 
 def aligned(rows):
+    """Rows of equally many texts as lines with aligned columns: the first two to the left, the others to the right."""
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     return ["  " + "  ".join(f"{cell:<{width}}" if k < 2 else f"{cell:>{width}}"
                              for k, (cell, width) in enumerate(zip(row, widths))).rstrip() for row in rows]
@@ -142,7 +154,9 @@ def lines_of(found):
 
 
 def write_ranking(found, path):
-    """Writes the rankings of all conditions and measures in N, m and m², without the rounding of the printed table."""
+    """Writes the rankings of all conditions and measures in N, m and m², without the rounding of the printed table. An
+    existing file is replaced. A cell is empty where there is no value, such as the interval of a single field.
+    "of_unmanaged" and "ice_lost_share" are fractions, "half_of_95_percent" is half of an interval."""
     with writing(path, newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["condition", "measure", "rank", "pattern", "fields", "mean", "half_of_95_percent",
@@ -163,7 +177,8 @@ def write_ranking(found, path):
 
 
 def write_means(found, path):
-    """Writes the means of all measures of management by condition and pattern, including those that rank nothing."""
+    """Writes the means of all measures of management by condition and pattern, including those that rank nothing, each
+    in the unit at the end of its name. An existing file is replaced."""
     with writing(path, newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["condition", "pattern", "measure", "fields", "mean", "half_of_95_percent"])

@@ -18,7 +18,8 @@ from .stop import Stop
 # Action `run`: runs the cases that --chunk, --case or --cases name, or all, and plans the study first if it has no
 # plan. If the study sets `archive`, packed chunks with cases that must run again are unpacked before, and chunks are
 # packed afterwards, except with --case, so that the case's folder can be looked at. A chunk or case that does not exist
-# is an error of usage.
+# is an error of usage (StudyError with code 2). Of the options, parsing allows only one of --chunk, --case and --cases.
+# Returns DONE if all of these cases are finished, otherwise the code of run_cases() or run_one().
 def run(options):
     study = planned(options)
     if options.chunk_to_run is not None:
@@ -46,7 +47,7 @@ def run(options):
     return code
 
 
-# Runs cases in worker processes, --jobs at a time.
+# Runs cases in worker processes, --jobs at a time. Returns an exit code (jobs.run_cases): DONE if all are finished.
 def run_cases(study, numbers, options):
     from . import jobs
 
@@ -57,7 +58,8 @@ def run_cases(study, numbers, options):
 
 # Runs the case --case in this process and returns the exit code of `polynya run`. For a case that has ended and is not
 # to run again, because its chunk is packed or because it failed and --retry-failed is not given, this is the code of
-# its result.
+# its result. (run() has unpacked the chunk before if the case must run again.) A finished case is left to run_case(),
+# which runs it again only if its run folder was removed and is to be kept.
 def run_one(study, options):
     number = options.case
     chunk = number // study.chunk_size
@@ -83,7 +85,7 @@ def run_one(study, options):
 def planned(options):
     """Returns the planned study of a folder or of a study's file. A file that is not planned yet is planned with the
     defaults of `plan`, but without the trial run. Raises StudyError if the file has changed what the cases set or
-    collect since it was planned."""
+    collect since it was planned, or if there is neither a file nor a planned study."""
     given = pathlib.Path(options.study)
     if not given.is_file():
         return open_study(given)
@@ -97,7 +99,8 @@ def planned(options):
     return plan.plan_study(given, defaults)
 
 
-# Action `plan`.
+# Action `plan`: writes the plan of a study and prints its folder, its size and the commands that run it. No case is
+# run, except a short trial run unless --trial-seconds is 0.
 def make_plan(options):
     from . import plan
 
@@ -108,7 +111,8 @@ def make_plan(options):
     return DONE
 
 
-# Action `slurm`: writes the scripts, and submits them with --submit. Does nothing if every case has ended.
+# Action `slurm`: writes the scripts, and submits them with --submit. Says so, with code DONE too, if every case has
+# ended and there is nothing to submit.
 def send(options):
     from . import slurm
 
@@ -125,7 +129,8 @@ def send(options):
     return DONE
 
 
-# Action `parallel`: prints a command for GNU parallel, which a shell can run.
+# Action `parallel`: prints a command for GNU parallel, which a shell can run, on stdout. If every case has ended,
+# stdout stays empty and stderr says so, so that a shell runs nothing.
 def spread(options):
     from . import slurm
 
@@ -138,26 +143,30 @@ def spread(options):
     return DONE
 
 
+# Action `gather`: writes the table of all cases. Returns DONE only if every case is finished.
 def gather(options):
     from . import gather as gathering
 
     return gathering.gather(open_study(options.study))
 
 
+# Action `evaluate`: plans, runs and gathers the points of a design, for a program that optimises (evaluate.py).
 def evaluate(options):
     from . import evaluate as evaluation
 
     return evaluation.evaluate(options)
 
 
+# Action `report`: gathers the study, and writes its page with tables and pictures. Returns the code of gather.
 def report(options):
     from . import report as made
 
     return made.report(open_study(options.study), options.players)
 
 
-# Runs an action. `words` are the arguments; by default the arguments of the process. A StudyError is printed by
-# command.run() with its own exit code; one with code 3 gets a line with the number of problems.
+# Runs an action and returns its exit code. `words` are the arguments; by default the arguments of the process. A
+# StudyError is printed by command.run() with its own exit code; one with code 3 gets a line with the number of
+# problems. If the program polynya is missing, a message says so, with code 5; other errors are raised again.
 def main(words=None):
     options = command_line().parse_args(words)
     actions = {

@@ -11,11 +11,15 @@ from ..naming import names_of
 from .gather import TABLE, read_summary
 
 # Largest number of values that a parameter may have for cases to be grouped by it if the study does not name one
-# (`report.group_by`); pictures have as many colours.
+# (`report.group_by`); pictures have as many colours. Larger: further groups are grey, without a fit and without a
+# legend entry of their own (pictures.GREY).
 MOST_GROUPS = 8
-# Least number of cases in a group for a fit of its peaks. With fewer, its parameters and its tests say little.
+# Least number of cases in a group for a fit of its peaks. With fewer, its parameters and its tests say little. Larger:
+# smaller groups get the reason in place of a fit.
 LEAST_FIT = 10
-QUANTILE = 0.99  # probability of the quantile in the columns q99 of the statistics, which name it
+# Probability of the quantile of a measure over cases in the page and in report/statistics.csv. Its columns are named
+# q99 after this value; another value needs other names.
+QUANTILE = 0.99
 # A fit is refuted if the p value of one of its tests is smaller [-]. Its value that is rarely exceeded is then struck
 # through on the page. A larger limit also refutes more fits that are right.
 REFUTED = 0.05
@@ -35,7 +39,8 @@ class Sample:
         return len(self.columns["case"])
 
     def values_of(self, name):
-        """The different values of a parameter, sorted."""
+        """The different values of a parameter, sorted, as numbers or texts. Raises FolderError if the table has no such
+        column."""
         return sorted(set(self.columns[name].tolist()))
 
     def varied(self):
@@ -54,7 +59,8 @@ class Sample:
         return [(value, self.columns[by] == value) for value in self.values_of(by)]
 
     def numbers(self, name, cases):
-        """Values of a column of numbers in the cases of a mask, without those that are missing."""
+        """Values of a column of numbers in the cases of a mask, without those that are missing; may be empty. The
+        column must have numbers (has_numbers())."""
         values = self.columns[name][cases]
         return values[numpy.isfinite(values)]
 
@@ -65,7 +71,8 @@ class Sample:
 
 def read_sample(study):
     """Reads the Sample of a gathered study; it has only an empty column "case" if no case is finished. Parameters that
-    are texts or objects get short names. Raises FolderError if table.csv is damaged."""
+    are texts or objects get short names. Raises FolderError if table.csv or gather.json is damaged or missing, or if
+    the table has a case that the study does not have."""
     cells, summary = files.read_cells(study.folder / TABLE), read_summary(study.folder)
     kept = [row for row, state in enumerate(cells["state"]) if state == "finished"]
     columns = files.Columns({name: column([of[row] for row in kept]) for name, of in cells.items()}, cells.path)
@@ -90,7 +97,8 @@ def named(values):
 
 
 def column(values):
-    """Converts cells of a table to an array: numbers if all are numbers or empty (NaN), otherwise texts."""
+    """Converts cells of a table to an array: numbers if all are numbers or empty (NaN), otherwise texts. One cell with
+    a text makes the whole column texts. A column of only empty cells is numbers, all NaN."""
     if all(value == "" or files.is_number(value) for value in values):
         return numpy.array([float(value) if value else numpy.nan for value in values])
     return numpy.array(values)
@@ -105,13 +113,14 @@ class Choices:
     exceedance: list  #: measures whose exceedance is drawn, and to which distributions are fitted
     group_by: str | None  #: parameter of whose values each has a line in the pictures; None: all cases are one group
     map: tuple | None  #: two parameters, over which the outcomes are drawn; None: no map
-    channels: int  #: number of cases whose channel is drawn
+    channels: int  #: largest number of cases whose channel is drawn
 
 
 def choices_of(study, sample):
     """The Choices of a study. By default means are drawn over the first varied parameter that is a number, groups are
-    formed by the first one with at most MOST_GROUPS values, and the map is over the first two with at most 60 values.
-    Names that the table does not have are left out."""
+    formed by the first one with at most MOST_GROUPS values, and the map is over the first two with at most 60 values,
+    so that its cells stay large enough to see. What the study's "report" names takes precedence over these defaults.
+    Names that the table does not have are left out, and so are measures without numbers."""
     given, varied = study.plan["report"], sample.varied()
     numeric = [name for name in varied if sample.has_numbers(name)]
     against = given.get("against", numeric[0] if numeric else None)
@@ -131,19 +140,22 @@ def choices_of(study, sample):
 
 
 def refuted(fit):
-    """Says that a Fit is refuted, with the smaller p value of its two tests; empty if it is not."""
+    """Says that a Fit is refuted, with the smaller p value of its two tests (Kolmogorov and Smirnov's, and Anderson and
+    Darling's); empty if it is not."""
     p = min(fit.ks_p, fit.ad_p)
     return f"refuted: p {p:.2g}" if p < REFUTED else ""
 
 
 def fits_of(values, seed=0):
     """{"gumbel": …, "weibull": …} of the distributions fitted to a group's peaks: each a Fit, or a text with the reason
-    why there is none. `seed` selects the bootstrap samples."""
+    why there is none: fewer than LEAST_FIT values, or values that the distribution cannot have. `seed` selects the
+    bootstrap samples; with the same one the result is the same."""
     return fits_of_bytes(numpy.asarray(values, dtype=float).tobytes(), seed)
 
 
 # Pictures and tables use the same fits, each of which needs a bootstrap. The values are given as bytes, because the
-# keys of the cache must be hashable.
+# keys of the cache must be hashable. 256 groups are kept; with more in a page some are fitted again, which takes
+# longer.
 @functools.lru_cache(maxsize=256)
 def fits_of_bytes(data, seed):
     """The result of fits_of for the bytes of an array of floats."""
