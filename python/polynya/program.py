@@ -24,7 +24,7 @@ def program():
 def main():
     """The command `polynya` of a wheel: replaces this process by the program, with the same arguments. Commands that
     are written in Python use the Python in which the wheel is installed, unless POLYNYA_PYTHON names another one. It
-    does not return. Raises OSError if the program cannot be started. PATH is not searched here."""
+    does not return. Raises OSError if the program cannot be started."""
     os.environ.setdefault("POLYNYA_PYTHON", sys.executable)
     own = program()
-    os.execv(own, [own] + sys.argv[1:])
+    os.execvp(own, [own] + sys.argv[1:])

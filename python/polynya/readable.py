@@ -24,5 +24,5 @@ def force(value):
     exponent."""
     for factor, name in ((1e6, "MN"), (1e3, "kN")):
         if abs(float(f"{value:.3g}")) >= factor:
-            return f"{value / factor:.3g} {name}"
+            return f"{value / factor:.3g} {name}" if abs(value) < 999.5 * factor else f"{value / factor:.0f} {name}"
     return f"{value:.3g} N"

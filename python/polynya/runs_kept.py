@@ -23,6 +23,8 @@ def kept_run(program, folder, name, scene, has_map=True):
     text = json.dumps(scene, indent=1)
     if is_finished(run) and path.is_file() and path.read_text(encoding="utf-8") == text:
         return run
+    # The old run must not count as one of the new scene if the program ends before it replaces the run.
+    (run / "summary.json").unlink(missing_ok=True)
     with writing(path) as file:
         file.write(text)
     # Each run uses one thread, because the callers start several runs at the same time. Results do not depend on it.
