@@ -19,14 +19,16 @@ class App;
 
 namespace polynya::app {
 
-/// Check of a word of the command line.
+/// Check of a word of the command line, before it is converted to the type of its variable. A word that violates it
+/// ends the program with kUsage and the message.
 struct WordCheck {
-  /// Returns the message that the user gets, or "" if the word is right. No function: every word is accepted.
+  /// Returns the message that the user gets, or "" if the word is right. It may also change the word. No function:
+  /// every word is accepted.
   std::function<std::string(std::string&)> problem_of;
   std::string description;  ///< allowed words, shown in the help; may be empty
 };
 
-/// Accepts numbers from `least` to `most`, both included.
+/// Accepts numbers from `least` to `most`, both included, in the unit of the option; not "nan".
 WordCheck between(double least, double most);
 /// Accepts whole numbers from `least` to `most`, both included, for counts and seeds. The message is like "1.5 is not a
 /// whole number from 1 to 1024".
@@ -40,12 +42,14 @@ WordCheck not_empty();
 /// Properties of an option in addition to its name, value and meaning. A command line that violates one of them is
 /// rejected with kUsage.
 struct OptionTraits {
-  bool is_required = false;    ///< true: the command needs the option
-  bool shows_default = false;  ///< true: the help shows the value that the variable had when the option was added
-  std::string group = {};      ///< heading in the help; empty: "Options"
-  /// Options that may not be given together with it, such as "--json"; they must have been added before.
+  bool is_required = false;  ///< true: the command needs the option
+  /// True: the help shows the value that the variable had when the option was added.
+  bool shows_default = false;
+  std::string group = {};  ///< heading in the help; empty: "Options"
+  /// Options that may not be given together with it, such as "--json"; they must have been added before, otherwise the
+  /// program ends by an exception at its start.
   std::vector<std::string> excludes = {};
-  std::string needs = {};   ///< option that must be given with it, added before; empty: none
+  std::string needs = {};   ///< option that must be given with it, added before (see `excludes`); empty: none
   char delimiter = 0;       ///< character between the items of a list in one word; 0: each item is a word
   int least = 1, most = 1;  ///< allowed number of items of a list; with most = 1 `least` is ignored: any number
   /// For a list. True: each occurrence of the option takes one item, so that a positional may follow. False: it takes
@@ -54,7 +58,7 @@ struct OptionTraits {
 };
 
 /// Variable of the caller in which an option's value is stored. Its type decides which words are accepted. An optional
-/// stays empty without the option; a vector collects the items of a list.
+/// stays empty without the option, and any other variable keeps its value; a vector collects the items of a list.
 using OptionValue =
     std::variant<std::string*, double*, int*, std::int64_t*, std::uint64_t*, std::optional<std::string>*,
                  std::optional<int>*, std::optional<double>*, std::optional<std::int64_t>*,
@@ -74,11 +78,11 @@ class CommandLine {
   void require_command();
   /// Leaves all words after the command unparsed, including --help, because another program reads them.
   void hand_on_arguments();
-  std::vector<std::string> remaining() const;  ///< these words, after parsing
+  std::vector<std::string> remaining() const;  ///< the words that hand_on_arguments() left, after parsing
   bool is_chosen() const;                      ///< true if the parsed command line contains this command
 
   /// Adds an option, such as "-o,--out", or a positional if the name has no dashes. `type` stands for the value in the
-  /// help ("DIR"), and `meaning` explains the option there.
+  /// help ("DIR"), and `meaning` explains the option there. `check` is applied to each word of the option.
   void option(const char* name, OptionValue value, const char* type, const char* meaning, WordCheck check = {},
               const OptionTraits& traits = {});
   /// Adds an option that takes one of these names, which the help lists. The value that belongs to the name is stored
@@ -92,7 +96,7 @@ class CommandLine {
     add_choice(name, std::move(names), meaning, traits,
                [&value, choices = std::move(choices)](std::size_t which) { value = choices[which].second; });
   }
-  /// Adds an option without a value, which sets the variable to true.
+  /// Adds an option without a value, which sets the variable to true; without it the variable keeps its value.
   void flag(const char* name, bool& value, const std::string& meaning, const OptionTraits& traits = {});
 
  private:
@@ -107,11 +111,14 @@ class CommandLine {
 /// Add the mandatory positional SCENE (a file, or "-" for stdin), or RUN (a run folder).
 void add_scene(CommandLine& command, std::string& scene);
 void add_run_folder(CommandLine& command, std::string& folder);
-/// Adds --set KEY=VALUE, which replaces values of a scene, for every command that reads a scene to run or check it.
+/// Adds --set KEY=VALUE, which replaces values of a scene, for every command that reads a scene to run or check it. It
+/// may be repeated. A word that is no assignment is refused; whether the key exists is checked with the scene.
 void add_set(CommandLine& command, std::vector<std::string>& words);
-/// Returns the assignments of the words of --set. Parsing has checked them; wrong words would be left out.
+/// Returns the assignments of the words of --set, in their order. Parsing has checked them; wrong words would be left
+/// out.
 std::vector<io::Assignment> assignments_of(const std::vector<std::string>& words);
-/// Adds --progress, for every long command. It does not offer kLines, which is only the fallback without a terminal.
+/// Adds --progress, for every long command: auto, bar, json or none. It does not offer kLines, which auto uses without
+/// a terminal. Without the option `kind` keeps its value.
 void add_progress(CommandLine& command, ProgressKind& kind);
 
 /// A command and the function that carries it out, which returns an ExitCode. Data is written to stdout, messages to
@@ -122,7 +129,8 @@ struct Command {
 };
 using Commands = std::vector<Command>;
 
-/// Runs the command that the parsed words chose and returns its exit code; 0 if none was chosen.
+/// Runs the command that the parsed words chose and returns its exit code; 0 if none was chosen. `commands` are
+/// all commands of one level; a command that has its own calls this function again with them.
 int run_chosen(const Commands& commands);
 
 // Each function adds a command with its help, options and action, all in one file (docs/architecture.md, "To add").
@@ -146,8 +154,9 @@ Command add_view(CommandLine& app);
 void add_python_commands(CommandLine& app, Commands& commands);
 
 /// Replaces this process by Python, which runs a command of the package polynya; the first word is the command's name.
-/// POLYNYA_PYTHON chooses the interpreter; otherwise /usr/bin/python3 is preferred. Returns only if it fails, with a
-/// message on stderr and kInputOutput.
+/// POLYNYA_PYTHON chooses the interpreter; otherwise /usr/bin/python3 is preferred to the first python3 on the search
+/// path, because it finds Debian's modules. Returns only if it fails (the package or Python is missing), with a message
+/// on stderr and kInputOutput. Otherwise the exit code is that of Python.
 int become_python(const std::vector<std::string>& words);
 
 /// Commit of the source from which the program is built; empty outside of git (cmake/PolynyaCommit.cmake).
@@ -161,7 +170,8 @@ struct ProgramText {
 };
 
 /// Parses the words and runs the chosen command, or prints help or version on stdout, or an error on stderr. Returns
-/// the exit code: that of the command, 0 after help or version, or kUsage. `count` and `words` are those of main().
+/// the exit code: that of the command, 0 after help or version, or kUsage if the words are wrong or name no command.
+/// `add_commands` adds the commands and returns them. `count` and `words` are those of main().
 int run_command_line(const ProgramText& text, const std::function<Commands(CommandLine&)>& add_commands, int count,
                      const char* const* words);
 

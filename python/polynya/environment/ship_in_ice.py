@@ -15,14 +15,18 @@ from .spaces import Box, Dict, Env
 # Colours of render() as red, green and blue from 0 to 255: water, ice, other ships and structures, and the own ship.
 _COLOURS = (143, 184, 208), (255, 255, 255), (122, 92, 46), (43, 43, 43)
 WATER, ICE, OTHERS, OWN = (numpy.array(colour, dtype=float) for colour in _COLOURS)
-MOST_SEED = 2**31  #: random seeds of scenes are below this value
-FLOE_COLUMNS = 7  #: number of columns of Simulation.nearest_floes; must be equal to it
+#: Seeds of scenes that reset() draws are below this value. Larger: more different scenes. A given seed is not limited.
+MOST_SEED = 2**31
+#: Number of columns of Simulation.nearest_floes. With another value, observations are not in the observation space.
+FLOE_COLUMNS = 7
 
 
 class Change(typing.NamedTuple):
     """Changes in one step, from which rewards are computed."""
 
-    progress: float  #: distance gained towards the goal, or along the initial heading without a goal [m]
+    #: Distance gained towards the goal, or along the initial heading without a goal [m]; negative if the ship lost
+    #: some.
+    progress: float
     #: Energy that the ship lost to contacts with ice and to ice under the hull in the step [J]: minus the mean forces
     #: and yaw moment times the mean velocities and yaw rate, in the ship's frame at the end of the step.
     ice_work: float
@@ -34,7 +38,7 @@ class Change(typing.NamedTuple):
 
 def metres_less_work(change):
     """The default reward of a step: the distance gained [m], minus 1 m for each megajoule that the ship lost to the
-    ice."""
+    ice. With more than 1 m per megajoule, agents would make longer detours around floes."""
     return change.progress - 1e-6 * change.ice_work
 
 
@@ -43,17 +47,18 @@ class ShipInIce(Env):
 
     scene: anything that polynya.Scene accepts, or a callable that makes a scene from a seed; default_scene if not
     given. For a scene that is no callable, reset(seed) replaces its `seed`, from which random fields of floes are
-    drawn.
-    ship: index or name of the ship to steer.
+    drawn. A scene that is not valid is refused here, that of a callable by reset().
+    ship: index or name of the ship to steer. reset() refuses a ship that does not exist or cannot take commands.
     goal: x, y in the world [m], which counts as reached when the ship is within `goal_radius` [m]; without a goal the
     ship is to go along its initial heading.
-    seconds: simulated time per step [s], a whole number of the scene's ticks (time.step_s).
+    seconds: simulated time per step [s], a multiple of the scene's time step (time.step_s). It replaces the scene's
+    record.forces_interval_s, so that the forces of a Change are means of the step.
     shape, cell_m, ahead_m: rows and columns of the image, size of a cell [m], and distance of the image's centre ahead
     of the ship's centre of gravity [m], as in Simulation.occupancy.
     floes: number of floes, for an observation of the nearest floes instead of the image.
     time_limit: simulated time at which an episode is truncated [s]; the scene's until_s if not given.
     reward: a callable that computes the reward from a Change.
-    threads: number of threads of the simulation.
+    threads: number of threads of the simulation; 1 is best if several environments run at once.
     render_mode: "rgb_array" if render() is used, otherwise None.
 
     Action: lever and steering angle, each from -1 to 1, the angle as a fraction of the largest, positive to port. Both
@@ -61,7 +66,9 @@ class ShipInIce(Env):
     and that other ships and structures, cover, with the view ahead at the top and port on the left; or "floes",
     floes x 7 numbers of the nearest floes, as in Simulation.nearest_floes. "ship": speed ahead and to port [m/s], yaw
     rate [rad/s], lever, steering angle as a fraction, and the position of the goal ahead and to port [m] (0 without a
-    goal). `simulation` is the Simulation that is stepped."""
+    goal). `simulation` is the Simulation that is stepped; None before the first reset().
+
+    Raises ValueError for a `goal`, `floes` or `render_mode` that is not allowed."""
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
 
@@ -88,9 +95,10 @@ class ShipInIce(Env):
         self.simulation = None
 
     def reset(self, *, seed=None, options=None):
-        """Starts a new simulation with the scene's seed `seed`, or a random one if it is None; `options` are ignored.
-        Lever and steering begin at 0. Returns the observation, and info with `scene_seed` and `time_s`. Raises
-        ValueError if a step is no whole number of ticks."""
+        """Starts a new simulation with the scene's seed `seed`; `options` are ignored. If `seed` is None, a seed is
+        drawn from np_random, which the last given seed started, so that a series of episodes can be repeated. Lever and
+        steering begin at 0. Returns the observation, and info with `scene_seed` and `time_s`. Raises ValueError if
+        `seconds` is no multiple of the scene's time step."""
         super().reset(seed=seed)
         self.scene_seed = int(self.np_random.integers(MOST_SEED)) if seed is None else seed
         given = self._make_scene(self.scene_seed)
@@ -115,7 +123,8 @@ class ShipInIce(Env):
     def step(self, action):
         """Sets lever and steering to an action, whose numbers are limited to -1 and 1, and simulates one step. Returns
         the observation, the reward, whether the goal is reached, whether the time is over, and info with `time_s`,
-        `progress_m`, `ice_work_J` and `events`. Raises ValueError for an action that is not two finite numbers, and
+        `progress_m`, `ice_work_J` and `events`. Both ends can be true in one step; further steps are not refused.
+        Raises RuntimeError before the first reset(), ValueError for an action that is not two finite numbers, and
         SimulationError if the run cannot continue."""
         if self.simulation is None:
             raise RuntimeError("reset() comes before the first step()")
@@ -160,8 +169,9 @@ class ShipInIce(Env):
         return {**ice, "ship": numpy.array(state, dtype=numpy.float32)}
 
     def render(self):
-        """Returns the image in colours, with the ship: rows x columns x 3 bytes. None without a render_mode. The image
-        is drawn even if the observation has floes instead."""
+        """Returns the image in colours, with the ship: rows x columns x 3 bytes (red, green, blue). None without a
+        render_mode. The image is drawn even if the observation has floes instead. Needs matplotlib, and a reset()
+        before."""
         if self.render_mode is None:
             return None
         ice, others = self.simulation.occupancy(self._ship, **self._view)

@@ -14,12 +14,15 @@ class ShipsInIce(VectorEnv):
     steps and images release Python's lock.
 
     workers: number of threads; if not given, one per simulation, but at most one per processor. It does not change
-    results. settings: those of ShipInIce, the same for all.
+    results. settings: those of ShipInIce, the same for all, including the errors that they raise.
 
     Observations are stacked along a first axis; rewards and ends are arrays with one entry per environment. An
     environment that has ended is reset by its next step, which ignores the action and returns the first observation,
     reward 0 and no end (Gymnasium's autoreset mode "next step"). The info of a step is a dict of arrays; "events" is an
-    array of lists. Raises ValueError if `num_envs` is no whole number from 1 on."""
+    array of lists. Raises ValueError if `num_envs` is no whole number from 1 on.
+
+    An error of one environment is raised by the step of all. The others may have been stepped then, so only reset()
+    leads back to a common state."""
 
     def __init__(self, num_envs=1, *, workers=None, **settings):
         if not isinstance(num_envs, int) or num_envs < 1:
@@ -37,8 +40,8 @@ class ShipsInIce(VectorEnv):
 
     def reset(self, *, seed=None, options=None):
         """Starts a new simulation in each environment. A number `seed` gives the seeds seed, seed + 1, …; a list gives
-        one seed per environment (ValueError for another length); None gives random ones. `options` are ignored, as by
-        ShipInIce. Returns stacked observations and infos."""
+        one seed per environment (ValueError for another length); None lets each environment draw its own, as
+        ShipInIce.reset does. `options` are ignored. Returns stacked observations and infos."""
         seeds = [None if seed is None else seed + i for i in range(self.num_envs)] if not _is_list(seed) else seed
         if len(seeds) != self.num_envs:
             raise ValueError(f"{len(seeds)} seeds are given for {self.num_envs} environments")
@@ -60,22 +63,23 @@ class ShipsInIce(VectorEnv):
         return _stacked(observations), numpy.array(rewards), reached, over, _gathered(infos)
 
     def _step_one(self, i, action):
-        """Steps environment i, or resets it with a random seed if its last step was its end."""
+        """Steps environment i. If its last step was its end, resets it instead, with a seed that it draws itself."""
         if not self._has_ended[i]:
             return self.envs[i].step(action)
         observation, info = self.envs[i].reset()
         return observation, 0.0, False, False, info
 
     def render(self):
-        """Returns a tuple with the picture of each environment, or None without `render_mode`."""
+        """Returns a tuple with the picture of each environment (ShipInIce.render), or None without `render_mode`."""
         return None if self.render_mode is None else tuple(env.render() for env in self.envs)
 
     def close(self, **_):
-        """Ends the threads."""
+        """Ends the threads after their present work. Later steps and resets raise RuntimeError."""
         self._pool.shutdown()
         self.closed = True
 
 
+# Returns True if `seed` has one seed per environment.
 def _is_list(seed):
     return isinstance(seed, (list, tuple, numpy.ndarray))
 

@@ -11,8 +11,10 @@ from matplotlib.patches import Patch, StepPatch
 from .page import Page, Sheet
 from .subjects import all_labelled, mark_fractures, once, subjects_of
 
-COMPONENTS = (("surge", "N"), ("sway", "N"), ("yaw", "Nm"))  # with the unit in the column's name
-# Colours of the first and the second of the loads that are drawn together; they also differ in greyscale.
+# Components of a load, one panel each, with the unit in the column's name.
+COMPONENTS = (("surge", "N"), ("sway", "N"), ("yaw", "Nm"))
+# Colours of the first (in front) and the second of the loads that are drawn together; they also differ in greyscale.
+# chosen() returns at most as many loads.
 FRONT, BEHIND = "#000000", "#56b4e9"
 # Width on paper of a stretch of time, of which only the largest and the smallest value are drawn [mm]. It is about the
 # width of the drawn line (0.25 pt): smaller stretches only make larger files, larger ones look like steps.
@@ -26,13 +28,15 @@ class Load:
     middle: str  # part of the column's name between component and unit, such as "_max"
     words: str  # text in the legend
 
+    # Returns the name of its column for one of COMPONENTS: "surge_max_N".
     def column(self, component, unit):
         return f"{component}{self.middle}_{unit}"
 
 
 def chosen(run, choice):
     """The loads that the value `choice` of `--load` names, the one that is drawn in front first. Empty if the run has
-    no load of that kind."""
+    no load of that kind: "ships" with a single hull, or "j-over-tau-c" if another model splits floes. The words state
+    the recording interval [s], rounded to whole time steps as in the run."""
     scene = run.scene
     step = scene["time"]["step_s"]
     interval = max(1, round(scene["record"]["forces_interval_s"] / step)) * step
@@ -47,7 +51,8 @@ def chosen(run, choice):
 
 
 def why_not(run, choice):
-    """Message that says why a run has no load of the kind `choice` ("ships" or "j-over-tau-c")."""
+    """Message that says why a run has no load of the kind `choice` ("ships" or "j-over-tau-c"); the other kinds are in
+    every run."""
     what = "does not split floes by j/tau_c (fracture.splitting.model michel)"
     if choice == "ships":
         what = "has one ship and no structure"
@@ -55,14 +60,16 @@ def why_not(run, choice):
 
 
 def prefixed(most):
-    """Returns (factor, prefix) of the unit for values up to `most`: (1e6, "M") from 1e6 on, and so on."""
+    """Returns (factor, prefix) of the unit for values up to `most`: (1e6, "M") from 1e6 on, and so on; (1, "") below
+    1000. Values are divided by the factor."""
     return next(((factor, name) for factor, name in ((1e9, "G"), (1e6, "M"), (1e3, "k")) if most >= factor), (1, ""))
 
 
 def envelope(times, values, start, end, stretches):
     """Divides the time from `start` to `end` [s] into equal stretches. Returns their limits, and in each the smallest
     and the largest of its values and 0, so that no peak is lost and the area between them reaches the axis. A value
-    belongs to the stretch that ends at or after its time; values that are not finite are left out."""
+    belongs to the stretch that ends at or after its time; values that are not finite are left out. A stretch without
+    values has 0 and 0."""
     edges = numpy.linspace(start, end, stretches + 1)
     low, high = numpy.zeros(stretches), numpy.zeros(stretches)
     is_number = numpy.isfinite(values)
@@ -73,8 +80,9 @@ def envelope(times, values, start, end, stretches):
 
 
 def scale_of(subjects, loads, component, unit):
-    """Limits of the scale that holds 0 and all values of a component [N or N m], with room for the marks of fractures
-    above. They are ±1 if all values are 0."""
+    """Limits (low, high) of the scale that holds 0 and all values of a component [N or N m], with room for the marks of
+    fractures above: 20 % of the range, and 3 % below. If all values are 0 or missing, the range is that from -1 to
+    1."""
     values = [subject.columns(load.column(component, unit))[0] for subject in subjects for load in loads]
     values = numpy.concatenate([[0.0], *values])
     values = values[numpy.isfinite(values)]
@@ -86,7 +94,9 @@ def scale_of(subjects, loads, component, unit):
 
 def draw(runs, page=Page(), choice="true"):
     """Draws a column of panels for each ship and structure, with one scale each for surge, sway and yaw. `choice` is
-    the value of --load, and the scene of the first run decides which loads it has. None if there is nothing to draw."""
+    the value of --load, and the scene of the first run decides which loads it has. A run without one of their columns
+    gets an empty panel. Returns the matplotlib figure, or None if there is nothing to draw: no ship or structure, no
+    duration, or no such load."""
     runs = all_labelled(runs)
     subjects = subjects_of(runs)
     loads = chosen(runs[0].run, choice) if subjects else []
@@ -123,8 +133,8 @@ def draw(runs, page=Page(), choice="true"):
 
 
 def draw_panel(axes, subject, loads, component, factor, page):
-    """Draws the loads of one component, (name, unit), divided by `factor`, and the marks of fractures. Returns the
-    legend entries of the marks."""
+    """Draws the loads of one component, (name, unit), divided by `factor`, and the marks of fractures. `loads` has at
+    most two, the first of which is drawn in front. Returns the legend entries of the marks."""
     times, *values = subject.columns("t_s", *(load.column(*component) for load in loads))
     stretches = max(100, int(0.8 * page.width / STRETCH / page.style.scale))
     for of, colour in reversed(list(zip(values, (FRONT, BEHIND)))):

@@ -1,7 +1,9 @@
-"""The command line of `polynya figures`. Needs neither numpy nor matplotlib."""
+"""The command line of `polynya figures`. Needs neither numpy nor matplotlib, so that --help and wrong options are
+answered without them."""
 from ..arguments import Parser, choice, choices, number, numbers
 
-#: Figures that can be drawn. Each is written to figure-<name>, in all formats.
+#: Figures that can be drawn. Each is written to figure-<name>, in all formats of --format. io/run/run_folder.hpp has
+#: the same names, so that a run that gets another end loses its figures.
 FIGURES = ("floes", "loads", "motion", "sizes", "energy")
 #: Loads that loads.py can draw. "true" draws "mean" and "max" together. "ships" needs a run with several ships or
 #: structures, and "j-over-tau-c" (docs/glossary.md) needs one that splits floes by the model `michel`.
@@ -9,7 +11,8 @@ LOADS = ("true", "mean", "max", "ships", "j-over-tau-c")
 #: Styles of page.py, in its order. A style sets the width (85, 170 and 300 mm), the largest height, the sizes of text
 #: and the number of maps if no times are given.
 STYLES = ("one-column", "two-columns", "slides")
-FORMATS = ("svg", "png", "pdf")
+FORMATS = ("svg", "png", "pdf")  #: endings of the files that are written
+#: Lines of --help: the arguments of a command without "polynya", and its effect.
 EXAMPLES = (
     "figures runs/sawamura2017-fig4b                       figure-floes.svg, -loads, -motion, ...",
     "figures runs/sawamura2017-fig4b --at 0,185,285,550 --style one-column --format pdf",
@@ -17,13 +20,15 @@ EXAMPLES = (
     'figures runs/6a runs/6b --label "10 m","20 m" --width-mm 85 --title ""',
     "figures runs/6a --only loads --from 200 --until 300   a part of the time",
 )
+#: Text at the end of --help.
 REST = """Needs Python 3 with numpy and matplotlib (./setup.sh python); a run's final.svg and the player need neither.
 Exit codes: 0 done, 2 usage, 5 input/output, or numpy or matplotlib is missing.
 """
 
 
 def command_line():
-    """Returns the parser. --from and --until also limit the times of the maps that are chosen automatically."""
+    """Returns the parser. It checks each option alone; __main__.problem_of checks them against the runs. --from and
+    --until limit the curves and the times of the maps that are chosen automatically, but not those of --at."""
     parser = Parser("polynya figures", "Draw figures of a run, or of several side by side, for print", EXAMPLES, REST)
     parser.add("runs", "The run folders", nargs="+", metavar="RUN")
     meaning = "Figures to draw, separated by commas; all if not given"

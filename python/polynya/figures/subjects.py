@@ -6,8 +6,8 @@ import dataclasses
 import numpy
 from matplotlib.lines import Line2D
 
-#: Colours of runs or subjects in their order: black, vermilion, sky blue, blue, purple, green [Okabe2008]. The first
-#: three also differ in greyscale.
+#: Colours of runs or subjects in their order: black, vermilion, sky blue, blue, purple, green. They can be told apart
+#: by colour-blind readers [Okabe2008]. The first three also differ in greyscale.
 COLOURS = ("#000000", "#d55e00", "#56b4e9", "#0072b2", "#aa4499", "#009e73")
 DASHES = ("-", "--", "-.")  #: line styles; the next one is used when all colours have been used
 CUSP, SPLIT = "#555555", "#d55e00"  #: colours of the marks of cusps and of splits
@@ -17,10 +17,10 @@ CUSP, SPLIT = "#555555", "#d55e00"  #: colours of the marks of cusps and of spli
 class Labelled:
     """A run with its name and range of times in figures."""
 
-    run: object
-    label: str
-    start: float  #: [s]
-    end: float  #: [s]
+    run: object  #: results.run.Run
+    label: str  #: name in titles and legends
+    start: float  #: first simulated time that is drawn [s]
+    end: float  #: last simulated time that is drawn [s]; equal to `start` only for a run without a duration
 
 
 def labelled(run, label=None, start=None, end=None):
@@ -36,14 +36,15 @@ def labelled(run, label=None, start=None, end=None):
     return Labelled(run, run.name if label is None else label, start, end)
 
 
-# Returns runs as Labelled. A run that already is Labelled keeps its name and times.
+# Returns runs as Labelled. A run that already is Labelled keeps its name and times; any other gets the name of its
+# scene and its whole time.
 def all_labelled(runs):
     return [run if isinstance(run, Labelled) else labelled(run) for run in runs]
 
 
 @dataclasses.dataclass(frozen=True)
 class Subject:
-    """A ship or structure of one of the runs; `ship` is its name."""
+    """A ship or structure of one of the runs; `ship` is its name in the scene."""
 
     of: Labelled
     ship: str
@@ -54,8 +55,8 @@ class Subject:
         return self.of.label if len(self.of.run.ship_names) == 1 else f"{self.of.label}, {self.ship}"
 
     def columns(self, *names):
-        """Returns these columns of forces.csv as arrays, for the rows of the ship within the range of times. A column
-        that a run of an older version does not have is NaN."""
+        """Returns these columns of forces.csv as arrays, for the rows of the ship within the range of times, both ends
+        included. Units are those in the names. A column that a run of an older version does not have is NaN."""
         forces = self.of.run.force_columns
         rows = (forces["ship"] == self.ship) & (forces["t_s"] >= self.of.start) & (forces["t_s"] <= self.of.end)
         return [forces[name][rows] if name in forces else numpy.full(numpy.count_nonzero(rows), numpy.nan)
@@ -75,11 +76,12 @@ def subjects_of(runs):
     return [Subject(run, ship) for run in runs for ship in run.run.ship_names if run.start < run.end]
 
 
-# Colour and line style of the subject with this number, from 0. Together they repeat after 18 subjects.
+# Colour of the subject with this number, from 0. Together with dash_of() it repeats after 18 subjects.
 def colour_of(number):
     return COLOURS[number % len(COLOURS)]
 
 
+# Line style of the subject with this number, from 0.
 def dash_of(number):
     return DASHES[number // len(COLOURS) % len(DASHES)]
 
@@ -106,5 +108,5 @@ def mark_fractures(axes, subject, scale):
 
 
 def once(handles):
-    """Returns the legend entries without those whose label occurred before."""
+    """Returns the legend entries without those whose label occurred before, in their order."""
     return list({handle.get_label(): handle for handle in reversed(handles)}.values())[::-1]

@@ -8,8 +8,11 @@ from polynya.readable import force, in_hours as hours, plain
 
 from . import estimate
 
-WIDEST = 118  #: largest width of a printed reason [characters]; longer ones continue on the next line
-MOST_KINDS = 12  #: largest number of kinds of runs whose answers are printed; loads-returns.csv contains all kinds
+#: Largest width of a printed reason [characters]; longer ones continue on the next line. Tables are not limited by it.
+WIDEST = 118
+#: Largest number of kinds of runs whose answers are printed, so that those of a large study stay readable;
+#: loads-returns.csv contains all kinds.
+MOST_KINDS = 12
 
 
 def shape(value):
@@ -18,11 +21,12 @@ def shape(value):
 
 
 def span(low, high):
-    """Returns an interval of forces [N] in words; an infinite upper end is "no limit"."""
+    """Returns an interval of forces [N] in words, such as "1.2 MN to 3 MN"; an infinite upper end is "no limit"."""
     return f"{force(low)} to {force(high) if math.isfinite(high) else 'no limit'}"
 
 
-# Describes the fit in use: its peaks, threshold, gap, shape with interval, scale and p value.
+# Describes the fit in use: number of its peaks, threshold, gap within which peaks count as one, shape with interval,
+# scale, and p value of its tests (small: the peaks do not follow the fit).
 def of_fit(fit):
     tail, gap = fit.tail, fit.events.gap
     bursts = f", peaks within {gap:.3g} s of each other as one" if gap else ""
@@ -32,7 +36,8 @@ def of_fit(fit):
 
 
 def of_answer(given):
-    """Describes the return value of a period with its interval, marked if extrapolated, or says that it is withheld."""
+    """Describes the return value of a period with its 90 % interval, marked if extrapolated. It is "withheld" if the
+    Answer has no value; reasons() says why."""
     if given.value_N is None:
         return "withheld"
     mark = ", EXTRAPOLATED" if given.is_extrapolated else ""
@@ -41,7 +46,8 @@ def of_answer(given):
 
 def reasons(answers, found):
     """Yields the reasons why return values of one kind of runs are withheld, and a note if any is extrapolated. A
-    reason that concerns all periods (`found.why`) comes first; each other one is stated once, with its periods."""
+    reason that concerns all periods (`found.why`) comes first; each other one is stated once, with its periods. Yields
+    nothing if all values are given and none is extrapolated."""
     if found.why:
         yield found.why
     periods = {}
@@ -56,20 +62,23 @@ def reasons(answers, found):
 
 
 def of_seen(given):
-    """Returns the interval of the return value that follows from the observed peaks without a fit."""
+    """Returns the interval of the return value that follows from the observed peaks without a fit. It is also given
+    where the value is withheld; "no limit" if too few peaks were observed for an upper end."""
     return span(given.seen_low_N, given.seen_high_N)
 
 
 def of_record(given, half_width):
     """Says how long a record must be for an interval of ± `half_width`, a fraction of the value. If that length is not
-    known, states the length from which on a value is given; a dash without a fit that reaches the period."""
+    known, states the length from which on a value is given. Returns a dash if no fit can be used or if the period is
+    too short for its threshold."""
     if given.record_needed_h:
         return f"{hours(given.record_needed_h)} for ±{100 * half_width:g} %"
     return f"at least {hours(given.least_record_h)}" if given.least_record_h else "-"
 
 
 def of_loads(loads):
-    """Describes the record: the number of peaks, the ship, the runs, and the time and distance that count."""
+    """Describes the record: the number of peaks, the ship, the runs, and the time and distance that count. The distance
+    is left out for a ship or structure that hardly moves."""
     runs = len(loads.cases)
     kinds = f" of {len(loads.kinds())} kinds" if len(loads.kinds()) > 1 else ""
     reach = f", {loads.kilometres:.3g} km" if loads.kilometres > 1e-6 else ""
@@ -91,16 +100,16 @@ def of_fits(found):
         yield f"fit      {of_fit(found.used)}"
 
 
-# Returns rows of texts as lines whose columns are aligned.
+# Returns rows of texts as lines whose columns are aligned to the left. All rows must have equally many texts.
 def aligned(rows):
     widths = [max(map(len, column)) for column in zip(*rows)]
     return ["  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths)).rstrip() for row in rows]
 
 
 def lines_of(loads, estimates, answers, half_width):
-    """Yields the lines that the command prints, with a section for each of the first MOST_KINDS kinds of runs.
-    `estimates` has (Loads, Estimate) by kind, `answers` are pairs (kind, Answer), and `half_width` is that of
-    of_record()."""
+    """Yields the lines that the command prints: the record, and a section for each of the first MOST_KINDS kinds of
+    runs with its fits, a row per return period, and the reasons of values that are withheld. `estimates` has (Loads,
+    Estimate) by kind, `answers` are pairs (kind, Answer), and `half_width` is that of of_record()."""
     yield of_loads(loads)
     for kind, (of, found) in list(estimates.items())[:MOST_KINDS]:
         if len(estimates) > 1:
@@ -116,7 +125,7 @@ def lines_of(loads, estimates, answers, half_width):
         yield f"and {len(estimates) - MOST_KINDS} more kinds of runs: loads-returns.csv"
 
 
-# Explanation below the table of the page.
+# Explanation below the table of return values on the page, with the limits that decided about them.
 EXPLAINED = (
     f"Intervals hold {100 * extremes.LEVEL:g} %. A fit with p below {estimate.REFUTED:g} or a shape above "
     f"{estimate.HEAVIEST:g} is refuted and gives no return value: it is struck through. Return values beyond "

@@ -9,7 +9,8 @@ from . import cautions, ranking
 from .figure import COLOURS
 from .study import MEASURES, UNMANAGED
 
-# Styles of the lines of patterns: solid with circles in each colour, then dashed with squares.
+# Styles of the lines of patterns: solid with circles in each colour, then dashed with squares. draw_study() draws at
+# most as many patterns as there are styles.
 LINES = [{"color": colour, "marker": mark, "linestyle": dash}
          for dash, mark in (("-", "o"), ("--", "s")) for colour in COLOURS]
 # Measures that draw_study() shows, in its order, and their words on the axes. draw_ranking() uses these words too, so
@@ -24,20 +25,27 @@ SHOWN = {
     "management_hit_s": "time with floes of the size on the body",
     "management_managed_width_m": "managed width",
 }
-MOST_NOTES = 4  # largest number of warnings below a figure
+MOST_NOTES = 4  # largest number of warnings below a figure; the others are only in the output of the command
 # The number of patterns in a panel of the ranking is what the page has room for, but within these limits. If the page
-# has room for fewer, it becomes taller.
+# has room for fewer than the first, it becomes taller; more than the second would be hard to read, even on a tall page.
 FEWEST_PATTERNS, MOST_PATTERNS = 8, 24
-OF_PANEL = 14  # height of a panel of the ranking without its patterns [mm]
-MANY = 12  # with more points on the x axis, intervals are drawn as bands, because bars would overlap
-ROW = 5.2  # height of a pattern in the ranking, with its words and its interval below them [mm]
+OF_PANEL = 14  # height of a panel of the ranking without its patterns: title, axis and its label [mm]
+# With more points on the x axis, intervals are drawn as bands without marks, because bars would overlap. At most as
+# many patterns as there are colours are then drawn.
+MANY = 12
+# Height of a pattern in the ranking, with its words and its interval below them [mm]. Smaller: the words of one pattern
+# touch the interval of the one above.
+ROW = 5.2
 HIT = "#d55e00"  # colour of a pattern whose ship hit the protected body
-WIDEST = 4  # the axis of a ranking ends at this multiple of the largest mean; wider intervals end in an arrow
+# The axis of a ranking ends at this multiple of the largest mean; wider intervals end in an arrow. Larger: wide
+# intervals are seen whole, but means lie closer together.
+WIDEST = 4
 
 
 def scaled(measure, most):
     """Returns the size and the name of the unit in which a measure is drawn, from the end of its name: for forces, of
-    which the largest is `most` [N], one of N, kN and MN; otherwise the unit of the name."""
+    which the largest is `most` [N], one of N, kN and MN; otherwise 1 and the unit of the name. Values are divided by
+    the size."""
     unit = measure.rpartition("_")[2]
     if unit == "N":
         return next(((factor, name) for factor, name in ((1e6, "MN"), (1e3, "kN")) if most >= factor), (1, "N"))
@@ -46,14 +54,16 @@ def scaled(measure, most):
 
 def end_of_axis(places, factor):
     """End of the axis of a ranking, in units of `factor`: near the largest end of an interval, but no farther than
-    WIDEST times the largest mean, so that means stay apart beside intervals that are far wider."""
+    WIDEST times the largest mean, so that means stay apart beside intervals that are far wider. `places` are
+    ranking.Place, at least one; 1 if all means are 0."""
     means = [place.mean.value / factor for place in places]
     ends = [mean + (place.mean.half or 0) / factor for mean, place in zip(means, places)]
     return min(1.05 * max(ends), WIDEST * max(means)) or 1
 
 
 def fitted(sheet, name, ending, width):
-    """A name with its ending, with the name shortened in the middle until both are at most `width` wide [mm]."""
+    """A name with its ending, with the name shortened in the middle until both are at most `width` wide [mm], but not
+    to fewer than 5 characters."""
     most, words = len(name), plain(name) + ending
     while sheet.width_of(words, sheet.page.style.small) > width and most > 5:
         most -= 1
@@ -64,7 +74,9 @@ def fitted(sheet, name, ending, width):
 def draw_place(axes, place, y, factor, page, hits, words):
     """Draws mean and interval of a pattern in its row `y` of the ranking, with `words` above: its name, and its hits of
     a ship if it has some. An interval ends at 0, below which none of the measures lies, or at the end of the axis, with
-    an arrow. A pattern with a hit (`hits` from cautions.hits_of(), or None) has a cross in the colour HIT."""
+    an arrow. A pattern with a hit (`hits` from cautions.hits_of(), or None) has a cross in the colour HIT; the pattern
+    without management is grey. `factor` is the size of the unit, from scaled(). With a single field there is no
+    interval."""
     is_hit, most = bool(hits and hits.hit), axes.get_xlim()[1]
     colour = HIT if is_hit else "0.45" if place.name == UNMANAGED else COLOURS[0]
     mean, half, scale = place.mean.value / factor, (place.mean.half or 0) / factor, page.style.scale
@@ -77,8 +89,8 @@ def draw_place(axes, place, y, factor, page, hits, words):
 
 
 def bracket_alike(axes, places, scale):
-    """Draws a bar at the right of each group of neighbouring patterns that do not differ significantly. The axis is
-    made longer for the bars."""
+    """Draws a bar at the right of each group of neighbouring patterns that do not differ significantly (ranking.alike).
+    The axis is made longer for the bars. `scale` is that of the page's style."""
     names = [place.name for place in places]
     groups = ranking.alike(places)
     low, high = axes.get_xlim()
@@ -91,15 +103,15 @@ def bracket_alike(axes, places, scale):
 
 
 def most_places(page, lines):
-    """Largest number of patterns in a panel, so that `lines` rows of panels fit onto a page if possible. 30 mm of the
-    page are for heading and notes."""
+    """Largest number of patterns in a panel, so that `lines` rows of panels fit onto a page if possible, between
+    FEWEST_PATTERNS and MOST_PATTERNS. 30 mm of the page are for heading and notes."""
     room = (page.style.tallest / page.style.scale - 30) / lines - OF_PANEL
     return max(FEWEST_PATTERNS, min(MOST_PATTERNS, int(room / ROW)))
 
 
 def draw_places(sheet, axes, measure, condition, width, most):
-    """Draws at most `most` patterns of one condition by one measure, best first, in a panel of `width` [mm]. Returns
-    the number of the other patterns."""
+    """Draws at most `most` patterns of one condition by one measure, best first, in a panel of `width` [mm]. Patterns
+    without the measure are left out. Returns the number of ranked patterns that were not drawn."""
     page = sheet.page
     every = condition.ranked(measure)
     places = every[:most]
@@ -121,7 +133,8 @@ def draw_places(sheet, axes, measure, condition, width, most):
 def draw_ranking(found, page):
     """Draws, for each condition and measure, the patterns with their intervals, best first. Bars join patterns that do
     not differ significantly. As many conditions as fit onto a page are drawn, at least one; a note says how many
-    conditions and patterns are missing. Returns the matplotlib figure, or None if nothing is ranked."""
+    conditions are missing, and the largest number of patterns that a panel lacks. `page` is a figures.page.Page.
+    Returns the matplotlib figure, or None if nothing is ranked."""
     measures = [name for name in MEASURES if any(condition.ranked(name) for condition in found.conditions)]
     every = [condition for condition in found.conditions if any(condition.ranked(name) for name in measures)]
     if not every:
@@ -154,7 +167,7 @@ def draw_ranking(found, page):
 
 def draw_line(axes, points, style, is_dense):
     """Draws the means of a pattern with their intervals, which are bands without marks if `is_dense`. `points` are (x,
-    mean, half of the interval)."""
+    mean, half of the interval), at least one, in the units of the axes. `style` is one of LINES."""
     x, y, half = (list(column) for column in zip(*points))
     if not is_dense:
         axes.errorbar(x, y, yerr=half, **style, markersize=3, linewidth=1, capsize=2)
@@ -166,9 +179,9 @@ def draw_line(axes, points, style, is_dense):
 
 def draw_study(found, page):
     """Draws means with 95 % intervals of some measures over the parameter `found.against`, with a line for each
-    pattern. Lines are shifted a little sideways, so that their intervals stay apart. Returns the matplotlib figure, or
-    None if there is no such parameter with at least two values, if other parameters vary too, or if no measure of SHOWN
-    is there."""
+    pattern. Lines are shifted a little sideways, so that their intervals stay apart; bands are not. A note says how
+    many patterns have no line. Returns the matplotlib figure, or None if there is no such parameter with at least two
+    values, if other parameters vary too, or if no measure of SHOWN is there."""
     xs = [condition.x for condition in found.conditions]
     shown = [name for name in SHOWN if name in found.measures]
     if not found.against or len(set(xs)) < 2 or len(set(xs)) < len(xs) or not shown:
@@ -203,7 +216,8 @@ def draw_study(found, page):
 
 
 def words_of(parameter):
-    """Last name of a parameter with its unit: "drift, m/s" for water.drift_m_per_s[0]."""
+    """Last name of a parameter with its unit: "drift, m/s" for water.drift_m_per_s[0]; without a known unit only the
+    name."""
     label = parameter.rpartition(".")[2].partition("[")[0]
     for ending, unit in sorted(UNITS.items(), key=lambda item: -len(item[0])):
         if label.endswith("_" + ending):

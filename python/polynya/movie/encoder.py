@@ -9,11 +9,11 @@ import tempfile
 
 import numpy
 
-# Message if ffmpeg is not installed.
+# Message if ffmpeg is not installed. A single picture is written without it.
 MISSING = ("ffmpeg is not installed: ./setup.sh python, or apt-get install ffmpeg "
            "(a picture, --out frame.png, needs none)")
 # Number of pictures, spread over the film, from which the 256 colours of a GIF are chosen. More: rare colours are kept,
-# but each picture is drawn once more before the film begins.
+# but each of these pictures is drawn once more before the film begins, and all are in the memory at the same time.
 SAMPLES = 8
 
 
@@ -37,8 +37,9 @@ def input_of(size, rate):
 
 
 def palette(pictures, size, folder):
-    """Writes a PNG with the colours of a GIF, chosen from some pictures, into a folder, and returns its path. Raises
-    FilmError if ffmpeg fails."""
+    """Writes palette.png with the colours of a GIF into the folder and returns its path. The colours are chosen from
+    `pictures`, arrays of rows × columns × 4 bytes, of which there must be at least one; `size` is their width and
+    height [px]. Raises FilmError if ffmpeg is missing or fails."""
     path = os.path.join(folder, "palette.png")
     words = [ffmpeg(), "-v", "error", "-y", *input_of(size, 1), "-vf", "palettegen=stats_mode=full",
              "-frames:v", "1", "-update", "1", path]
@@ -49,7 +50,8 @@ def palette(pictures, size, folder):
     return path
 
 
-# Returns the last line of ffmpeg's messages, which states the reason of a failure.
+# Returns the last line of ffmpeg's messages (bytes), which states the reason of a failure; without one a sentence that
+# there is none.
 def last_line(text):
     lines = text.decode(errors="replace").strip().splitlines()
     return lines[-1] if lines else "it failed without a message"
@@ -59,12 +61,13 @@ class Encoder:
     """A film while it is written, to be used in a `with` statement. It is written under a hidden name in the same
     folder and gets its own name at the end of the statement. After an exception nothing of it remains, and a file that
     had the name before is unchanged. ffmpeg runs in its own session, so that Ctrl-C reaches only this process, which
-    removes the draft. Raises FilmError if ffmpeg is missing or fails."""
+    removes the draft. Raises FilmError if ffmpeg is missing or fails, also if that is noticed only at the end of the
+    statement. If the path is a link, the file to which it leads is replaced."""
 
     def __init__(self, path, size, rate, samples=()):
         """Starts ffmpeg. The suffix of `path` decides the format: GIF for .gif, otherwise MP4. `size` is width and
         height of the pictures [px], `rate` their number per second of the film. `samples` are pictures from which the
-        colours of a GIF are chosen; an MP4 needs none."""
+        colours of a GIF are chosen, at least one; an MP4 needs none."""
         self._path = os.path.realpath(path)
         folder, name = os.path.split(self._path)
         self._draft = os.path.join(folder, f".{name}.{os.getpid()}.part")
@@ -92,13 +95,15 @@ class Encoder:
                                 stderr=self._errors, start_new_session=True)
 
     def add(self, pixels):
-        """Adds the next picture, an array of rows × columns × 4 bytes."""
+        """Adds the next picture, an array of rows × columns × 4 bytes (red, green, blue, and one that is ignored) of
+        the film's size. Raises FilmError if ffmpeg has ended."""
         try:
             self._process.stdin.write(numpy.ascontiguousarray(pixels))
         except BrokenPipeError:
             self._process.wait()
             raise FilmError(f"ffmpeg: {self._message()}") from None
 
+    # Returns the reason that ffmpeg stated for a failure.
     def _message(self):
         self._errors.seek(0)
         return last_line(self._errors.read())
@@ -113,6 +118,7 @@ class Encoder:
         finally:
             self._clean_up()
 
+    # Ends ffmpeg if it still runs, and removes the draft and the temporary files. After _finish() there is no draft.
     def _clean_up(self):
         if self._process is not None:
             if self._process.poll() is None:
@@ -125,6 +131,7 @@ class Encoder:
         self._errors.close()
         self._scratch.cleanup()
 
+    # Waits until ffmpeg has written the film, and gives the film its name. Raises FilmError if ffmpeg failed.
     def _finish(self):
         with contextlib.suppress(BrokenPipeError):
             self._process.stdin.close()

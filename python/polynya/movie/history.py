@@ -1,18 +1,20 @@
-"""Chart of the ice force on a ship over time: the whole curve is pale, and the part up to the present is drawn in
-full."""
+"""Chart of the ice force on a ship over time in a film: surge and sway in the ship's frame. The whole curve is pale,
+and the part up to the present is drawn in full."""
 from __future__ import annotations
 
 import numpy
 
+# (column of forces.csv, name in the legend, colour) of the curves. The columns are means over a recording interval.
 CURVES = (("surge_N", "surge", "#000000"), ("sway_N", "sway", "#d55e00"))
-# Colour of the line at the present (RGBA).
+# Colour of the line at the present (red, green, blue, opacity).
 CURSOR = numpy.array([0x00, 0x72, 0xB2, 0xFF], dtype=numpy.uint8)
 PALE = 0.22  # opacity of the part of the curve after the present: 0 hides it, 1 draws it in full [-]
 
 
 def thinned(times, values, bins):
     """Divides the rows into `bins` stretches of equal numbers and keeps at most two points of each, its smallest and
-    largest value, in their order. A chart has as many stretches as the picture is wide [px], so no peak is lost."""
+    largest value, in their order. A chart has as many stretches as the picture is wide [px], so no peak is lost. At
+    most two rows per stretch are returned unchanged. Returns the kept times and values."""
     if len(times) <= 2 * bins:
         return times, values
     edges = numpy.linspace(0, len(times), bins + 1).astype(int)[:-1]
@@ -23,14 +25,17 @@ def thinned(times, values, bins):
 
 
 def unit_of(largest):
-    """Unit for forces up to `largest` [N], and its name."""
+    """Unit for forces up to `largest` [N], and its name: MN from 0.5 MN on, kN from 0.5 kN on, otherwise N. Forces are
+    divided by the unit."""
     return next((unit, name) for unit, name in ((1e6, "MN"), (1e3, "kN"), (1.0, "N"))
                 if largest >= 0.5 * unit or unit == 1.0)
 
 
 class History:
-    """A chart at a position of a figure, given as [x, y, width, height] in fractions of the figure, with the size
-    `font` of text [pt]. The figure draws the whole curve once; `draw` then changes only pixels, which is fast."""
+    """A chart at the position `place` of a figure, given as [x, y, width, height] in fractions of the figure, with the
+    size `font` of text [pt]. `ship` is the name of the ship or structure whose forces are shown, and `look` a
+    picture.Look, whose start and end limit the time axis (None: those of the run). A ship without a row of forces.csv
+    gets an empty chart. The figure draws the whole curve once; `draw` then changes only pixels, which is fast."""
 
     def __init__(self, run, ship, look, figure, place, font):
         self.look = look
@@ -57,6 +62,8 @@ class History:
             self.axes.set_ylim(-1, 1)
         self._dress(ship, unit_name, font, len(run.ship_names) > 1)
 
+    # Draws axes, labels and legend. `unit` is the name of the forces' unit. The legend names the ship only if the run
+    # has others (`has_others`).
     def _dress(self, ship, unit, font, has_others):
         axes, small = self.axes, 0.85 * font
         axes.set_xlim(self.start, self.end)
@@ -74,7 +81,8 @@ class History:
             line.set_linewidth(0.14 * font)
 
     def prepare(self, canvas):
-        """Stores the chart's pixels with a pale curve. Call it once, after the figure has been drawn on `canvas`."""
+        """Stores the chart's pixels with a pale curve. Call it once, after the figure has been drawn on `canvas` and
+        before draw()."""
         self._full = numpy.asarray(canvas.buffer_rgba()).copy()
         box = self.axes.get_window_extent()
         rows = len(self._full)
@@ -84,7 +92,8 @@ class History:
         self._pale = (255 - PALE * (255 - inside)).astype(numpy.uint8)
 
     def draw(self, pixels, time):
-        """Makes the curve after `time` [s] pale in the pixels of the drawn figure, and draws a line at that time."""
+        """Makes the curve after `time` [s] pale in `pixels`, and draws a line at that time. `pixels` are those of the
+        drawn figure, rows × columns × 4 bytes, and are changed. A time outside of the axis is drawn at its end."""
         share = (time - self.start) / (self.end - self.start) if self.end > self.start else 1.0
         now = self._left + round(min(max(share, 0.0), 1.0) * (self._right - self._left))
         first = max(now, self._left + 2)

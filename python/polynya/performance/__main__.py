@@ -1,4 +1,5 @@
-"""`polynya performance SHIP` (polynya.command starts it)."""
+"""`polynya performance SHIP` (polynya.command starts it): the speed of a ship in level ice over the thickness. With
+--pack, --level or --channel coefficients.py makes a table of its resistance instead."""
 import concurrent.futures
 import json
 import math
@@ -19,14 +20,17 @@ from .tables import write_table
 INPUT_OUTPUT = 5  # exit code of app/command_line/console.hpp
 
 
+# Prints a message on stderr and returns the exit code `code`.
 def fail(code, message):
     print(f"polynya performance: {message}", file=sys.stderr)
     return code
 
 
 def ship_of(name):
-    """Reads a preset or a ship file by `polynya ships`: its title, the ship with all defaults, its engine, and reported
-    speeds. If the ship is refused, this ends the command in the same way, with the reason on stderr."""
+    """Reads a preset or a ship file by `polynya ships` and returns the dict that --json --for-performance prints: its
+    name and title, the ship with all defaults, its engine, reported speeds, and the source of each particular. If the
+    ship is refused, this ends the command with the exit code of `polynya ships`, which prints the reason on stderr.
+    Raises OSError if the program cannot be started."""
     words = [program(), "ships", name, "--json", "--for-performance"]
     done = subprocess.run(words, stdout=subprocess.PIPE, text=True, check=False)
     if done.returncode != DONE:
@@ -35,8 +39,9 @@ def ship_of(name):
 
 
 def ten_thicknesses(curve):
-    """Ten thicknesses [m], evenly spaced up to slightly less than that at which Lindqvist's formula gives 0.2 m/s. The
-    spacing is a multiple of 0.05 m."""
+    """Ten thicknesses [m], evenly spaced up to at most that at which Lindqvist's formula gives 0.2 m/s, searched
+    between 0.05 and 5 m. The spacing is a multiple of 0.05 m, so the last one may be well below that limit; it is at
+    least 0.05 m, so for a weak ship the last ones may be above."""
     thin, thick = 0.05, 5.0
     while thick - thin > 0.01:
         middle = 0.5 * (thin + thick)
@@ -46,8 +51,8 @@ def ten_thicknesses(curve):
 
 
 def print_table(rows):
-    """Prints the rows of a curve and the meaning of their marks. "not steady": even in the longest run the mean speed
-    is less certain than --error asks for."""
+    """Prints the rows of a curve (Curve.point) and the meaning of their marks. "stops": the ice stopped the ship. "not
+    steady": even in the longest run the mean speed is less certain than --error asks for."""
     print(
         f"{'h [m]':>7} {'v [m/s]':>10}{'± scatter':>10}{'[kn]':>8}   {'contact [kN]':>13}{'under hull':>12}   "
         f"{'Lindqvist':>10}{'Riska':>8}{'Spencer-Jones':>15}"
@@ -72,7 +77,8 @@ def print_table(rows):
 
 def print_sensitivity(found, curve, thicknesses, arguments):
     """Prints how much the mean speed by the published formulas changes with each particular of ship and ice, with a
-    mark at those that nobody stated. Returns the table for all thicknesses."""
+    mark at those that nobody stated, and below it how estimated particulars were estimated. `found` is from ship_of().
+    Returns the table for all `thicknesses` [m]. Needs no run."""
     is_given = {"flexural_strength": arguments.flexural_strength is not None,
                 "friction": arguments.friction is not None}
     of = (curve.hull, curve.engine, curve.ice)
@@ -84,7 +90,8 @@ def print_sensitivity(found, curve, thicknesses, arguments):
 
 
 def report_progress(done, total, row):
-    """Shows a bar that is overwritten on a terminal, otherwise a line for each report."""
+    """Shows on stderr that `done` of `total` thicknesses have ended, `row` being the last: a bar that is overwritten on
+    a terminal, otherwise a line for each report."""
     last = f"{row['thickness_m']:g} m at {row['speed_m_per_s']:.2f} m/s"
     if sys.stderr.isatty():
         filled = 30 * done // total
@@ -97,7 +104,8 @@ def report_progress(done, total, row):
 
 def run_all(curve, wanted, jobs):
     """Runs all thicknesses, `jobs` at a time, and reports progress. Thick ice, in which ships are slow and runs long,
-    is started first. Returns the rows, thinnest ice first. An error cancels the thicknesses that have not started."""
+    is started first. `wanted` are thicknesses [m]. Returns the rows, thinnest ice first. An error cancels the
+    thicknesses that have not started, waits for those that run, and is raised again."""
     rows = {}
     with concurrent.futures.ThreadPoolExecutor(max(1, jobs)) as pool:
         futures = {pool.submit(curve.point, h): h for h in sorted(wanted, reverse=True)}
@@ -112,6 +120,7 @@ def run_all(curve, wanted, jobs):
     return [rows[h] for h in sorted(rows)]
 
 
+# Prints the speeds by the published formulas at the thicknesses `wanted` [m], for --list; 0: the ice stops the ship.
 def print_formulas(curve, wanted):
     print(f"{'h [m]':>7}{'Lindqvist':>11}{'Riska':>8}{'Spencer-Jones':>15}   speeds [m/s]")
     for h in wanted:
@@ -120,7 +129,8 @@ def print_formulas(curve, wanted):
 
 
 def draw_figure(path, rows, found, ice, curve):
-    """Draws the picture; without matplotlib prints a line that says so."""
+    """Draws the picture of the rows into the file `path` and prints its name. Without matplotlib a line on stderr says
+    so, and the exit code of the command stays 0."""
     try:
         from . import figure
     except ImportError as error:
@@ -132,6 +142,9 @@ def draw_figure(path, rows, found, ice, curve):
     print(f"figure  {path}")
 
 
+# Carries out the command and returns its exit code: 0, 4 if a run failed, 5 if the program polynya is missing or a file
+# cannot be written, and 75 if it was stopped; wrong options end it with 2. Tables are written after all runs have
+# ended.
 def main():
     arguments = read_options()
     try:

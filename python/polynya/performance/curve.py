@@ -7,11 +7,13 @@ from .. import formulas
 from ..runs_kept import kept_run
 from . import level_ice
 
-# First and largest length of the course, in lengths of the ship. The first 2.2 lengths do not count. With a larger MOST
-# fewer points are marked "not steady", and runs in thick ice become longer.
+# First length of the course, and the length from which on a run is not repeated, in lengths of the ship. The length is
+# doubled from FIRST on: 5, 10, 20. The first 2.2 lengths do not count (level_ice.Measured). With a larger FIRST fewer
+# runs are repeated, but each takes longer. With a larger MOST fewer points are marked "not steady", and runs in thick
+# ice become longer. The help of the command states 20.
 FIRST, MOST = 5, 20
 # Largest thickness for which speeds are within or close to the published formulas [m] (docs/validation.md, "A ship in
-# level ice"). Rows of thicker ice are marked with "*".
+# level ice"). Rows of thicker ice are marked with "*"; a larger value would hide that they were not validated.
 VALIDATED_THICKNESS = 0.5
 # Meanings of the marks "*" and "!" below the printed table. The keys of BEYOND are the results of beyond_band.
 THICKER = f"thicker than {VALIDATED_THICKNESS:g} m, outside the range of validation"
@@ -19,19 +21,22 @@ BEYOND = {1: "faster than by every formula", -1: "slower than by every formula"}
 
 
 def beyond_band(speed, of_formulas):
-    """Returns 1 if a speed is above those of all formulas, -1 if it is below all, 0 if it is between them."""
+    """Returns 1 if a speed is above those of all formulas [m/s], -1 if it is below all, 0 if it is between them or
+    equal to the largest or smallest."""
     return int(speed > max(of_formulas)) - int(speed < min(of_formulas))
 
 
 def mark_of(row):
     """Marks of a row whose speed is not supported: "*" if the ice is thicker than was validated, and "!" if the speed
-    is above or below those of all published formulas. Empty if it is supported."""
+    is above or below those of all published formulas; both marks are possible. Empty if it is supported. `row` is from
+    Curve.point()."""
     return ("*" if not row["is_in_validated_range"] else "") + ("!" if row["beyond_formulas"] else "")
 
 
 def formula_words(rows):
     """Says how much of the resistance is not computed by mechanics but is Lindqvist's formula for ice under the hull,
-    as the range in percent over the rows in which the ship moves. Empty if it moves in none."""
+    as the range in percent over the rows in which the ship moves against a resistance. Empty if there is no such
+    row."""
     shares = [100 * row["formula_share"] for row in rows if row["formula_share"] > 0]
     if not shares:
         return ""
@@ -41,8 +46,10 @@ def formula_words(rows):
 
 class Curve:
     """The curve of one ship. `ship` is the ship of a scene, `hull` its formulas.Hull, `engine` its bollard pull [N] and
-    open-water speed [m/s], and `ice` a formulas.Ice whose thickness is replaced. Runs are in `folder`. `error` is the
-    largest accepted standard error of a mean speed, as a fraction of it, and `step` the time step [s]."""
+    open-water speed [m/s], and `ice` a formulas.Ice whose thickness is replaced. Runs are in `folder`, which must exist
+    for point(), and `program` is the path of polynya. `error` is the largest accepted standard error of a mean speed,
+    as a fraction of it; it also limits the change between the halves of the course (level_ice.Measured.is_within).
+    `step` is the time step [s]. Only formula_speeds() needs no run."""
 
     def __init__(self, ship, hull, engine, ice, folder, program, error, step):
         self.ship, self.hull, self.engine, self.ice = ship, hull, engine, ice
@@ -53,13 +60,14 @@ class Curve:
         return dataclasses.replace(self.ice, thickness=thickness)
 
     def formula_speeds(self, thickness):
-        """Speeds at which the resistances by published formulas equal the net thrust [m/s], by the formula's name."""
+        """Speeds at which the resistances by published formulas equal the net thrust [m/s], by the formula's name:
+        lindqvist, riska and spencer_jones. A speed is 0 if the ice stops the ship by that formula."""
         return formulas.level_ice_speeds(self.hull, self.engine, self.level(thickness))
 
     def first_speed(self, thickness):
         """Initial speed of a run [m/s]: that at which 0.8 of Lindqvist's resistance equals the net thrust, at least
         0.5 m/s. It is near the steady speed, so that the ship settles early. The run lasts as long as the course takes
-        at this speed."""
+        at this speed. A larger factor than 0.8 makes runs begin more slowly and last longer."""
         ice = self.level(thickness)
         speed = formulas.equilibrium(
             self.engine["bollard_pull_N"],
@@ -69,7 +77,10 @@ class Curve:
         return max(0.5, speed)
 
     def point(self, thickness):
-        """Runs the ship in ice of a thickness [m] and returns its row of performance.csv. Raises RunFailed."""
+        """Runs the ship in ice of a thickness [m] and returns its row of performance.csv (docs/ships.md), from the
+        longest course that was run. Forces are means against the motion. A stuck ship has speed and error 0 and counts
+        as steady; `is_steady` is false if even the longest course was too short. `way_m` is the distance that the ship
+        sailed, `run` the name of its folder. Raises RunFailed, or KeyboardInterrupt if the run was stopped."""
         speed, lengths = self.first_speed(thickness), FIRST
         while True:
             name = f"level-{thickness:g}-{lengths}"

@@ -10,15 +10,17 @@ from ..files import naming  # noqa: E402
 from ..formulas import KNOT  # noqa: E402
 from .curve import VALIDATED_THICKNESS, formula_words  # noqa: E402
 
+# (name of the formula in the rows, name in the legend, line style). The shaded band lies between their speeds.
 FORMULAS = (
     ("lindqvist", "Lindqvist 1989", "-"),
     ("riska", "Riska 1997", "--"),
     ("spencer_jones", "Spencer, Jones 2001", ":"),
 )
-BLUE, RED = "#0072b2", "#d55e00"
+BLUE, RED = "#0072b2", "#d55e00"  # colours of simulated points, and of their warnings and design points
 WIDTH, HEIGHT = 130, 75  # width of the page, height of the panel [mm]
-AROUND = 0.3  # range of thickness shown beside a single one, as a fraction of it
-POINTS = 40  # number of thicknesses for which the formulas are drawn
+# Range of thickness shown on each side of a single one, as a fraction of it. Without it the formulas would be points.
+AROUND = 0.3
+POINTS = 40  # number of thicknesses for which the formulas are drawn; fewer: their lines have visible corners
 # Marks: points that are not supported are hollow, those beyond all formulas have a square around them as well, and
 # design points are triangles.
 THICK = {"marker": "o", "markersize": 3.5, "color": BLUE, "markerfacecolor": "white", "linestyle": "none"}
@@ -27,7 +29,8 @@ REPORTED = {"marker": "^", "markersize": 5, "color": RED, "linestyle": "none"}
 
 
 def thicknesses_of(rows):
-    """Thicknesses for which the formulas are drawn: from the thinnest to the thickest row, and around a single one."""
+    """Thicknesses for which the formulas are drawn [m]: from the thinnest to the thickest row, and around a single one.
+    There must be a row."""
     every = [row["thickness_m"] for row in rows]
     low, high = min(every), max(every)
     if low == high:
@@ -36,7 +39,8 @@ def thicknesses_of(rows):
 
 
 def formula_rows(curve, rows):
-    """Speeds by the formulas over the range of the figure."""
+    """Speeds by the formulas over the range of the figure, as rows with the keys thickness_m and <formula>_m_per_s, as
+    in the rows of a Curve."""
     return [{"thickness_m": h, **{f"{name}_m_per_s": v for name, v in curve.formula_speeds(h).items()}}
             for h in thicknesses_of(rows)]
 
@@ -56,8 +60,9 @@ def draw_formulas(axes, rows):
 
 
 def draw_points(axes, rows):
-    """Draws the points of the simulation with their marks and the 95 % interval of the run's scatter (1.96 standard
-    errors). Returns the legend entries."""
+    """Draws the points of the simulation with their marks and the interval of the run's scatter (1.96 standard errors,
+    95 % of a normal distribution). The legend also states the share of Lindqvist's formula in the resistance. Returns
+    the legend entries."""
     thickness, speed = ([row[key] for row in rows] for key in ("thickness_m", "speed_m_per_s"))
     scatter = [1.96 * row["error_m_per_s"] for row in rows]
     of_points = axes.errorbar(thickness, speed, yerr=scatter, fmt="o-", color=BLUE, markersize=3.5, linewidth=1.2,
@@ -77,7 +82,8 @@ def draw_points(axes, rows):
 
 
 def draw_reported(axes, reported):
-    """Draws the design points. Returns the legend entry."""
+    """Draws the design points: speeds in ice that the ship is reported to reach at least. `reported` are rows with
+    thickness_m and speed_m_per_s. Returns a list with the legend entry, empty without points."""
     if not reported:
         return []
     axes.plot([point["thickness_m"] for point in reported], [point["speed_m_per_s"] for point in reported], **REPORTED)
@@ -85,8 +91,10 @@ def draw_reported(axes, reported):
 
 
 def draw(rows, title, reported, path, of_formulas=None):
-    """Writes the picture in the format of the path's extension. `of_formulas` are rows of the formulas' speeds, those
-    of the points if not given."""
+    """Writes the picture of the rows of a Curve in the format of the path's extension. The first line of `title` is the
+    heading, the second a caption below it. `reported` are the design points, which may be none. `of_formulas` are rows
+    of the formulas' speeds (formula_rows); if not given, the formulas are drawn at the points only. A file of that name
+    is replaced. Raises OSError with the path if it cannot be written."""
     title, _, caption = title.partition("\n")
     page = Page(given_width=WIDTH)
     with Sheet(page, title, caption) as sheet:

@@ -1,5 +1,5 @@
 """The command line of `polynya performance`. The allowed ranges of thickness, strength, friction and time step are
-those of the scene's keys.
+those of the scene's keys, so that no run is refused because of an option.
 
 An option that is not given is None until read_options fills in DEFAULTS. Other defaults depend on the use of the
 command: those of fields are in coefficients.py, that of the thicknesses in __main__.py."""
@@ -7,15 +7,18 @@ import os
 
 from ..arguments import Parser, number, numbers
 
-# Flexural strength [Pa] and friction on the hull [-] of the ice if they are not given. The speeds at
-# full power in docs/validation.md are for these values, except Araon's strength.
+# Flexural strength [Pa] and friction on the hull [-] of the ice if they are not given. They are not the defaults of a
+# scene. The speeds at full power in docs/validation.md are for these values, except Araon's strength. Larger values
+# make ships slower.
 FLEXURAL_STRENGTH, FRICTION = 500e3, 0.1
-# Time step of the runs in level ice at full power if --step is not given [s]. The help of --step states it.
+# Time step of the runs in level ice at full power if --step is not given [s]. With a larger one the mean load in level
+# ice may be wrong by more than 5 % (docs/validation.md); a smaller one takes more time. The help of --step states it.
 STEP = 0.01
 
-# Values of options that are not given and that do not depend on the use of the command.
+# Values of options that are not given and that do not depend on the use of the command: largest error of a mean speed
+# as a fraction, number of random fields per point, number of runs at a time. The help of the first two states them.
 DEFAULTS = {"error": 0.03, "fields": 2, "jobs": os.cpu_count() or 1}
-# Groups of options that are used together.
+# Groups of options that are used together, by their names in the parsed arguments.
 OF_ICE = {"thickness", "flexural_strength", "friction"}
 OF_RUNS = {"step", "out", "jobs"}
 OF_FIELDS = {"cover", "floe_size", "fields"}
@@ -56,15 +59,16 @@ included, and a second table has resistance and minimum power for the Finnish-Sw
 
 def values(one):
     """Returns a reader of a list of numbers, separated by commas, that sorts it and removes repeated ones. `one` is the
-    reader of a single number."""
+    reader of a single number. The reader raises argparse.ArgumentTypeError for a wrong number."""
     return lambda text: sorted(set(numbers(one)(text)))
 
 
-thicknesses = values(number(1e-3, 20, "m"))
+thicknesses = values(number(1e-3, 20, "m"))  # reads the list of --thickness
 
 
 def add_coefficients(parser):
-    """Adds the options for tables of resistance: --pack, --level or --channel, and the points of the table."""
+    """Adds the options for tables of resistance: --pack, --level or --channel, of which one may be given, and the
+    points of the table."""
     which = parser.add_mutually_exclusive_group()
     for name, ice in (("--pack", "pack ice"), ("--level", "level ice"), ("--channel", "a channel of brash ice, 1.5 "
                                                                           "beams wide in fast ice")):
@@ -80,6 +84,7 @@ def add_coefficients(parser):
     parser.add("--fields", meaning, type=number(1, 1000, kind=int), metavar="N")
 
 
+# Returns the parser of the command. It checks each option alone; problem_of() checks which may be given together.
 def command_line():
     meaning = "Find the speed that a ship can keep in level ice of each thickness"
     parser = Parser("polynya performance", meaning, EXAMPLES, REST)
@@ -116,8 +121,8 @@ def use_of(arguments):
 
 
 def problem_of(arguments):
-    """Returns a message on the first option that is given although the use of the command does not read it; empty if
-    there is none."""
+    """Returns a message on the first option, in the order of the alphabet, that is given although the use of the
+    command does not read it, with the uses that read it; empty if there is none."""
     use = use_of(arguments)
     for name in sorted(set().union(*USES.values()) - USES[use]):
         if getattr(arguments, name) is not None:
@@ -128,7 +133,8 @@ def problem_of(arguments):
 
 def read_options(words=None):
     """Reads the command line and fills in the values of DEFAULTS that were not given. Ends the command with exit code 2
-    and a message if an option is wrong or not used. `words` are those after the command's name; None: sys.argv."""
+    and a message if an option is wrong or not used. `words` are those after the command's name; None: sys.argv. Options
+    whose default depends on the use stay None."""
     parser = command_line()
     arguments = parser.parse_args(words)
     if problem := problem_of(arguments):

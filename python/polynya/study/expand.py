@@ -5,7 +5,8 @@ from . import draws
 
 
 def count_cases(definition):
-    """The number of cases that expand() lists, without listing them."""
+    """The number of cases that expand() lists, without listing them. `definition` is a definition.Definition, here and
+    below."""
     count = definition.repetitions * definition.draws * len(definition.scenes) * paired_count(definition)
     for values in definition.grid.values():
         count *= len(values)
@@ -22,7 +23,8 @@ def expand(definition):
     """Yields every case in the order of its number, as the index of its scene and its values by path, without those
     that the study sets for all cases. The last path of the grid varies fastest, then the other paths of the grid,
     pairs, scenes, draws, and slowest the repetitions. A study with more repetitions therefore begins with the same
-    cases, so that finished cases can be kept; so does a study of one repetition with more independent draws."""
+    cases, so that finished cases can be kept; so does a study of one repetition with more independent draws. With a
+    Latin hypercube more draws change all cases. No path is in two of these groups: the definition was checked."""
     drawn = {
         path: draws.draw(definition.draw_seed, path, kind, numbers, definition.draws, definition.method)
         for path, (kind, numbers) in definition.draw.items()
@@ -43,7 +45,8 @@ def expand(definition):
 
 
 def repeats_by_seed(definition):
-    """Returns True if repetitions set the scene's seed, because nothing else in the study sets it."""
+    """Returns True if repetitions set the scene's seed, because nothing else in the study sets it. Otherwise the
+    repetitions of a case are equal."""
     blocks = (definition.fixed, definition.grid, definition.paired, definition.draw)
     return not any("seed" in block for block in blocks)
 

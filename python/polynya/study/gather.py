@@ -14,15 +14,19 @@ from .folder import counted, list_of_numbers, write_atomically
 
 TABLE, NETCDF, SUMMARY = "table.csv", "table.nc", "gather.json"  # files in the study's folder
 STATES = ("failed", "unfinished", "missing")  # states of case.state_of other than "finished"
-MOST_SHOWN = 10  # number of failures whose messages are printed
-LONGEST_SHOWN = 380  # longest command that is printed [characters]; gather.json has the whole of a longer one
-# Largest number of cases for which a netCDF file is written, because the whole table must fit into the memory.
+MOST_SHOWN = 10  # number of failures whose messages are printed; table.csv shows which other cases failed
+# Longest command that is printed, some four lines of a terminal [characters]; gather.json has the whole of a longer
+# one.
+LONGEST_SHOWN = 380
+# Largest number of cases for which a netCDF file is written, because the whole table must fit into the memory. A larger
+# number needs more memory; table.csv has no such limit.
 MOST_NETCDF = 1_000_000
 
 
 def gather(study):
     """Writes table.csv, table.nc if xarray and netCDF4 are installed, and gather.json. Returns an exit code: DONE if
-    every case is finished, otherwise FAILED if any has failed, otherwise STOPPED. Cases are read one after the other:
+    every case is finished, otherwise FAILED if any has failed, otherwise STOPPED. Files of an earlier call are
+    replaced, also if cases are missing. What is missing is printed on stderr. Cases are read one after the other:
     table.csv needs little memory, but table.nc as much as the whole table."""
     measures = first_measures(study)
     rest = write_table(study, measures)
@@ -55,7 +59,8 @@ KINDS = {"cases": int, "is_complete": bool, "finished": int, "parameters": list,
 
 
 def read_summary(folder):
-    """Reads gather.json of a study's folder, which describes its table. Raises FolderError if it is damaged."""
+    """Reads gather.json of a study's folder, which describes its table. Raises FolderError if it is missing or
+    damaged."""
     summary = read_json(folder / SUMMARY)
     wrong = [key for key, kind in KINDS.items() if not isinstance(summary.get(key), kind)]
     names = [] if wrong else [*summary["parameters"], *summary["columns"]]
@@ -69,13 +74,14 @@ def read_summary(folder):
 class Rest:
     """Parts that a table lacks: cases that are not finished, and measures that are not in its header."""
 
-    by_state: dict = dataclasses.field(default_factory=lambda: {state: [] for state in STATES})  # numbers of cases
-    messages: list = dataclasses.field(default_factory=list)  # (number, message) of the first failures
+    by_state: dict = dataclasses.field(default_factory=lambda: {state: [] for state in STATES})  # state -> cases
+    messages: list = dataclasses.field(default_factory=list)  # (number, message) of the first MOST_SHOWN failures
     unknown: list = dataclasses.field(default_factory=list)  # names of measures that the table's header lacks
 
 
 def parameter_columns(study):
-    """Names of the table's columns of parameters: the varied paths, after "scene" if the study has several scenes."""
+    """Names of the table's columns of parameters: the varied paths, after "scene" if the study has several scenes.
+    These columns are filled for all cases, finished or not."""
     many_scenes = len(study.plan["scenes"]) > 1
     return (["scene"] if many_scenes else []) + study.plan["varied"]
 
@@ -91,7 +97,8 @@ def first_measures(study):
 
 def write_table(study, measures):
     """Replaces table.csv by a table with these measures and a row for each case, and returns its Rest. A case that is
-    not finished has only its number, state and parameters."""
+    not finished has only its number, state and parameters. A measure without a value, or one that another version did
+    not have, is an empty cell. The table is replaced at the end, so that an error leaves the earlier one."""
     rest, parameters, known = Rest(), parameter_columns(study), set(measures)
     draft = study.folder / (TABLE + ".tmp")
     with writing(draft, newline="") as file:
@@ -112,12 +119,14 @@ def write_table(study, measures):
 
 
 def cell(value):
-    """The value of a parameter as csv writes it: numbers and texts as they are, any other value as JSON."""
+    """The value of a parameter as csv writes it: numbers and texts as they are, any other value as JSON (None:
+    null)."""
     return value if isinstance(value, (int, float, str)) and not isinstance(value, bool) else json.dumps(value)
 
 
 def commands(study, by_state):
-    """{state: the command that runs the cases in that state}, for the states that have cases."""
+    """{state: the command that runs the cases in that state}, for the states that have cases. `by_state` is
+    Rest.by_state. gather.json has the result as `repair`."""
     run = f"polynya study run {study.folder}"
     found = {}
     for state in ("missing", "unfinished"):
@@ -148,7 +157,9 @@ def report_rest(study, rest):
 
 def write_netcdf(study, summary):
     """Writes the table as a netCDF file with the dimension "case", columns of numbers as floats with NaN for no value,
-    and others as texts. Returns None, or the reason why there is no file; an older file is then removed, too."""
+    and others as texts. A column with a single cell that is no number is one of texts. `summary` is the contents of
+    gather.json. Returns None, or the reason why there is no file: too many cases, or a package that is not installed.
+    An older file is then removed, too. Raises OSError with the path if it cannot be written."""
     path = study.folder / NETCDF
     path.unlink(missing_ok=True)
     if study.count > MOST_NETCDF:

@@ -1,16 +1,20 @@
 """Measures of one finished run, from its files (docs/run-folder.md): the columns of a study's table, which
 docs/studies.md explains, "Measures". Written in plain Python, so that a job needs little memory.
 
-`collect` are the settings of that name in the study's file. `columns` are the columns of forces.csv of one ship; each
-row covers the interval since the previous one, and speeds, poses and powers are those at its end."""
+`collect` are the settings of that name in the study's file. `columns` are the columns of forces.csv of one ship, by
+name; each row covers the interval since the previous one, and speeds, poses and powers are those at its end. Units are
+those in the names of columns and measures. Forces are in the ship's frame: surge ahead, sway to port."""
 import json
 import math
 import subprocess
 
 from .. import files
 
-LOADS = ("surge_N", "sway_N", "yaw_Nm")  # columns that are measured always, before those of collect.loads
-QUANTILES = (0.5, 0.9, 0.99)  # quantiles of loads if collect.quantiles gives none
+# Columns of forces.csv that are measured always, before those of collect.loads. They are loads of contacts with ice.
+LOADS = ("surge_N", "sway_N", "yaw_Nm")
+# Probabilities of the quantiles of loads if collect.quantiles gives none. They are in the names of columns, such as
+# resistance_q99_N.
+QUANTILES = (0.5, 0.9, 0.99)
 # Speed below which a ship counts as stopped if collect.stop_speed_m_per_s is not given [m/s]. A larger value gives more
 # stopped time, and more often the outcome "stuck".
 STOP_SPEED = 0.05
@@ -18,9 +22,11 @@ TEXT_COLUMNS = {"ship"}  # columns of forces.csv that are not numbers
 
 
 def measure(run, collect, program):
-    """Measures of the finished run in the folder `run`, by name; None if there is no value. `program` is the program
-    polynya, for the channel. The same run gives the same measures on any machine. Raises ValueError for a ship or a
-    load that the run does not have, and FolderError for a damaged folder."""
+    """Measures of the finished run in the folder `run`, by name; None if there is no value. They are those of the ship
+    collect.ship, otherwise of the first one in forces.csv; without such a row there are no measures of loads and motion
+    and no outcome. In a run with several ships or structures, `bends` and `splits` count only those of that ship.
+    `program` is the path of polynya, for the channel. The same run gives the same measures on any machine. Raises
+    ValueError for a ship or a load that the run does not have, and FolderError for a damaged folder."""
     files.check_run(run)
     summary = files.read_json(run / "summary.json")
     counts = summary["counts"]
@@ -52,7 +58,8 @@ def measure(run, collect, program):
 
 
 def rows_by_ship(path):
-    """Returns {ship: columns} of a forces.csv: the columns by name, with the rows of that ship or structure."""
+    """Returns {ship: columns} of the forces.csv in the file `path`: the columns by name, with the rows of that ship or
+    structure, in the order of their first rows. Raises FolderError if the file is damaged."""
     cells, rows = files.read_cells(path), {}
     for row, ship in enumerate(cells["ship"]):
         rows.setdefault(ship, []).append(row)
@@ -67,7 +74,9 @@ def rows_by_ship(path):
 
 def measures_of_ship(columns, collect):
     """Measures of loads, motion, ramming and targets. Loads and motion count only after collect.from_s, and after the
-    ship has sailed collect.from_m."""
+    ship has sailed collect.from_m; ramming and targets count from the start. If the ship never gets that far, there are
+    no columns of loads, and means are None. The resistance is the force of ice against the motion: minus surge, of
+    contacts and of ice under the hull. Raises ValueError for a load that forces.csv lacks."""
     start = max(collect.get("from_s", 0), time_to(columns, {"distance_m": collect.get("from_m", 0)}, math.inf))
     kept = [i for i, t in enumerate(columns["t_s"]) if t > start]
 
@@ -97,7 +106,8 @@ def measures_of_ship(columns, collect):
 
 def of_load(name, unit, values, sizes, levels):
     """Mean and standard deviation of the values of a load, and peak and quantiles of `sizes`, which are the resistance
-    itself or the magnitudes of the load. `levels` are the probabilities of the quantiles. Empty without values."""
+    itself or the magnitudes of the load. The columns are called <name>_mean<unit> and so on, with a unit such as "_N".
+    `levels` are the probabilities of the quantiles. Empty without values; the deviation of a single value is 0."""
     if not values:
         return {}
     mean = math.fsum(values) / len(values)
@@ -113,7 +123,8 @@ def of_load(name, unit, values, sizes, levels):
 
 
 def quantile(ordered, level):
-    """Quantile with the probability `level`, interpolated linearly between sorted values, as in numpy."""
+    """Quantile with the probability `level`, interpolated linearly between sorted values, as in numpy. There must be a
+    value."""
     at = level * (len(ordered) - 1)
     low = int(at)
     high = min(low + 1, len(ordered) - 1)
@@ -121,9 +132,11 @@ def quantile(ordered, level):
 
 
 def of_motion(columns, kept, collect):
-    """Measures of speed, distance, stops and energy over the rows `kept`, and the final pose. A stop begins when the
-    speed falls below the stop speed, after it was above twice that, so that a speed that varies about the limit is one
-    stop."""
+    """Measures of speed, distance, stops and energy over the rows `kept` (indices), and the final pose of the run. A
+    stop begins when the speed falls below the stop speed, after it was above twice that, so that a speed that varies
+    about the limit is one stop, and a ship that never moved has none; `stopped_s` is its whole time below the limit.
+    Energies per kilometre are work of the thrust and delivered power, None without a distance, and for the power
+    without an engine."""
     times, speeds = columns["t_s"], columns["speed_m_per_s"]
     steps = [times[0]] + [b - a for a, b in zip(times, times[1:])]
     span = math.fsum(steps[i] for i in kept)
@@ -153,7 +166,7 @@ def of_motion(columns, kept, collect):
 def of_rams(columns):
     """Measures of a ramming ship: the number of charges after the first and the distance gained in all; then means per
     charge, from its start to the start of the next: distance gained, duration, and largest speed ahead. A charge starts
-    when `rams` increases. Fewer than two such starts give no means, and a run without that column gives nothing."""
+    when `rams` increases. Fewer than two such starts give means None, and a run without that column gives nothing."""
     if "rams" not in columns:
         return {}
     rams, gained, times = columns["rams"], columns["gained_m"], columns["t_s"]
@@ -178,8 +191,9 @@ def forward_speed(columns, i):
 
 def time_to(columns, target, never=None):
     """Time of the first row in which the ship has reached the target [s], or `never`. A target is one of distance_m
-    (sailed over ground), point_m with within_m, x_m and y_m. A line x_m or y_m is reached from either side: when the
-    ship is on another side of it than in the first row."""
+    (sailed over ground), point_m with within_m, x_m and y_m, all in world coordinates [m]. A line x_m or y_m is reached
+    from either side: when the ship is on another side of it than in the first row. A distance of 0 is reached at the
+    time 0."""
     times, xs, ys = columns["t_s"], columns["x_m"], columns["y_m"]
     if "distance_m" in target:
         gone, before = 0.0, 0.0
@@ -200,15 +214,17 @@ def time_to(columns, target, never=None):
 
 def outcome(found, columns, collect):
     """The outcome of the run in one word: "stuck" if the ship is slower than the stop speed in the last row, otherwise
-    "split" if a floe split, "bent" if a cusp broke by bending, or "pushed" if neither happened. pictures.OUTCOMES has
-    the same words."""
+    "split" if a floe split, "bent" if a cusp broke by bending, or "pushed" if neither happened. The first of these that
+    holds counts, so a ship that broke ice and then stopped is "stuck". pictures.OUTCOMES has the same words, and no
+    colour for any other."""
     if columns["speed_m_per_s"][-1] < collect.get("stop_speed_m_per_s", STOP_SPEED):
         return "stuck"
     return "split" if found["splits"] else "bent" if found["bends"] else "pushed"
 
 
 def fractures_of(path, ship):
-    """Numbers of cusps and splits that a ship or structure caused, from events.ndjson."""
+    """Numbers of cusps ("bends") and splits ("splits") that a ship or structure caused, from the file `path` of
+    events.ndjson."""
     kinds = {"bend": 0, "split": 0}
     for event in files.read_json_lines(path):
         if event["kind"] in kinds and event["ship"] == ship:

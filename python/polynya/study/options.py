@@ -1,4 +1,5 @@
-"""The command line of `polynya study`: its actions and their options."""
+"""The command line of `polynya study`: its actions and their options. Each option is checked alone here; __main__.py
+and the modules of the actions check them against the study."""
 import os
 
 from ..arguments import WHOLE, Parser, choice, number
@@ -22,7 +23,8 @@ unfinished or were stopped.
 
 
 def add(parser, name, meaning, **more):
-    """Adds an option, or a positional argument, with its meaning for --help, whose first letter is made a capital."""
+    """Adds an option, or a positional argument, with its meaning for --help, whose first letter is made a capital.
+    `more` are arguments of add_argument()."""
     parser.add_argument(name, help=meaning[0].upper() + meaning[1:], **more)
 
 
@@ -34,6 +36,7 @@ def add_action(actions, name, meaning, *examples):
     return parser
 
 
+# The functions below add one action each, and add_others() the rest. `actions` is the result of Parser.add_actions().
 def add_plan(actions):
     plan = add_action(
         actions,

@@ -15,16 +15,19 @@ from .folder import RUN, write_atomically
 from .gather import TABLE, gather
 from .sample import QUANTILE, choices_of, fits_of, read_sample, refuted
 
-PAGE = "study.html"
+PAGE = "study.html"  # in the study's folder
 # Largest number of finished cases for which --players auto makes players, and of rows in the page's table of cases.
+# Each player takes time and space; the help of --players states their number. Longer tables make the page slow.
 MOST_PLAYERS, MOST_ROWS = 250, 2000
-# Relative half-width of the interval for which "cases needed" is computed [-]. The column cases_for_5_percent and the
-# page state it in words.
+# Half-width of the mean's 95 % interval for which "cases needed" is computed, as a fraction of the mean [-]. Smaller:
+# more cases. The column cases_for_5_percent and the page state it in words.
 RELATIVE_WIDTH = 0.05
 
 
 def report(study, players):
-    """Gathers, draws and writes study.html. Returns the exit code of gather."""
+    """Gathers the folder.Study, draws, and writes study.html and report/statistics.csv, in place of earlier ones.
+    Without a finished case there is no page, and earlier files stay. `players` is the value of --players. Returns the
+    exit code of gather, so an incomplete study has a page and a code other than 0."""
     code = gather(study)
     sample = read_sample(study)
     folder = study.folder / "report"
@@ -42,7 +45,9 @@ def report(study, players):
 
 
 def draw(study, sample, choices, folder):
-    """(file, caption) of each picture."""
+    """Draws the pictures of a sample.Sample into the folder, which it makes, as sample.Choices say. Returns (name of
+    the SVG, caption) of each. There is no picture of means without a parameter along the x axis, no map without two
+    parameters, and none of channels if no run is kept."""
     folder.mkdir(exist_ok=True)
     made = []
     for measure in choices.exceedance:
@@ -76,7 +81,9 @@ def draw(study, sample, choices, folder):
 
 
 def statistics_of(sample, choices):
-    """A row for each measure and group: mean, quantile, number of cases needed, and the fits of peaks."""
+    """A row for each measure and group: mean, quantile, number of cases needed, and the fits of peaks, with their 95 %
+    intervals. Values are in the units of the measures. A group with fewer than two values has no row, and only measures
+    of choices.exceedance have fits. The number of cases needed is None for a mean of 0."""
     rows = []
     for measure in dict.fromkeys([*choices.means, *choices.exceedance]):
         for value, cases in sample.groups(choices.group_by):
@@ -110,7 +117,8 @@ def statistics_of(sample, choices):
 
 def fit_columns(values):
     """Columns of the fits to peaks: parameters, tests, and the value that one run of a hundred exceeds. A refuted fit
-    has that value under another name, with a note, so that it is not used by mistake."""
+    has that value under another name, with a note, so that it is not used by mistake. A distribution that cannot be
+    fitted has only a note with the reason."""
     columns = {}
     for name, fitted in fits_of(values).items():
         if isinstance(fitted, str):
@@ -135,6 +143,8 @@ def fit_columns(values):
     return columns
 
 
+# Writes rows as CSV, with the columns of all rows in the order in which they first occur; a row without one has an
+# empty cell.
 def write_csv(path, rows):
     columns = list(dict.fromkeys(key for row in rows for key in row))
     with writing(path, newline="") as file:
@@ -144,7 +154,9 @@ def write_csv(path, rows):
 
 
 def make_players(study, sample, players):
-    """Makes the players of kept runs that have none yet. A failure is printed and does not change the exit code."""
+    """Makes the players (view.html) of kept runs that have none yet, one per processor at a time. `players` is "all",
+    "none", or "auto": only if there are at most MOST_PLAYERS finished cases. Players that exist stay as they are. A
+    failure is printed and does not change the exit code."""
     numbers = sample.columns["case"].astype(int).tolist()
     runs = [study.case_folder(n) / RUN for n in numbers]
     wanted = [run for run in runs if (run / "frames.bin").exists() and not (run / "view.html").exists()]
@@ -163,6 +175,7 @@ def make_players(study, sample, players):
         )
 
 
+# Returns the text of study.html. `made` is the result of draw(), `rows` that of statistics_of().
 def page(study, sample, choices, made, rows):
     text = html.escape
     state = sample.summary
@@ -194,6 +207,8 @@ def page(study, sample, choices, made, rows):
     return "\n".join(lines) + "\n"
 
 
+# Returns the table of the statistics as HTML, with measures in the units of pictures.label_of. `group_by` is the
+# parameter that defines groups; None: there is one group.
 def statistics_table(rows, group_by):
     head = [
         "measure",
@@ -223,8 +238,9 @@ def statistics_table(rows, group_by):
 
 
 def of_fit(row, name, factor):
-    """The value that one run of a hundred exceeds by a fit. It is struck through, with the reason, if the fit is
-    refuted. Without a fit, the reason for that."""
+    """The value that one run of a hundred exceeds by the fit `name`, times `factor`, as HTML. It is struck through,
+    with the reason, if the fit is refuted. Without a fit, the reason for that; empty for a measure that is not
+    fitted."""
     note = html.escape(row.get(f"{name}_note", ""))
     level = with_interval(row, f"{name}_exceeded_by_1_percent", factor)
     struck = with_interval(row, f"{name}_refuted_level", factor)
@@ -232,7 +248,7 @@ def of_fit(row, name, factor):
 
 
 def with_interval(row, name, factor):
-    """"1.2 (1.1 – 1.4)"; empty if the row has no value."""
+    """A value of the row with its interval, times `factor`: "1.2 (1.1 – 1.4)"; empty if the row has none."""
     if name not in row:
         return ""
     value, low, high = (pictures.in_words(row[name + side] * factor, 4) for side in ("", "_low", "_high"))
@@ -240,7 +256,9 @@ def with_interval(row, name, factor):
 
 
 def case_table(study, sample):
-    """Table of the cases with their parameters and outcome, and the player of each, or the command that makes it."""
+    """Table of the first MOST_ROWS finished cases as HTML, with their parameters and outcome, and a link to the player
+    of each. Without a player there is the command that makes it; without the run folder, the command that runs the case
+    again and keeps it."""
     numbers = sample.columns["case"].astype(int).tolist()
     shown = numbers[:MOST_ROWS]
     names = [
@@ -270,21 +288,23 @@ def case_table(study, sample):
 
 
 def name_table(sample):
-    """Table with the meanings of short names of parameters."""
+    """Table with the meanings of short names of parameters, as HTML."""
     return table(["parameter", "name", "value"], [[parameter, name, Raw(f"<code>{html.escape(str(value))}</code>")]
                                                   for parameter, of in sample.meanings.items()
                                                   for name, value in of.items()])
 
 
 def in_unit(value, factor):
-    """A value for a table: parameters with six digits, converted measures with four."""
+    """A value for a table, times `factor`: with six significant digits if the factor is 1, as for parameters, otherwise
+    with four."""
     return pictures.in_words(value if factor == 1 else value * factor, 6 if factor == 1 else 4)
 
 
 class Raw(str):
-    """Text that already is HTML."""
+    """Text that already is HTML, which table() does not escape."""
 
 
+# Returns a table as HTML from the texts of its head and the rows of values of its body, which are escaped unless Raw.
 def table(head, body):
     def cell(tag, value):
         return f"<{tag}>{value if isinstance(value, Raw) else html.escape(str(value))}</{tag}>"

@@ -1,4 +1,5 @@
-"""Scripts for clusters: a Slurm job array over a study's chunks, and the command line for GNU parallel."""
+"""Scripts for clusters: a Slurm job array over a study's chunks, and the command line for GNU parallel. `study` is a
+folder.Study."""
 import pathlib
 import re
 import shlex
@@ -10,6 +11,9 @@ from .case import DONE, state_of
 from .folder import list_of_numbers, write_atomically
 from .located_json import StudyError
 
+# Script of the array, array.sbatch. Output is appended, because a task that is queued again has the same file. Code 75
+# is that of `polynya study run` for cases that are unfinished: only if it comes after USR1, the task queues itself
+# again, so that a stop by the user remains one.
 SCRIPT = """#!/bin/bash
 # One task runs one chunk of the study's cases. Made by `polynya study slurm`.
 #SBATCH --job-name={name}
@@ -36,6 +40,8 @@ if [ -n "$is_late" ] && [ $code = 75 ]; then
 fi
 exit $code
 """
+# Script of the job that gathers, gather.sbatch. It has one hour and one processor, whatever --time and --cpus say;
+# options of --sbatch apply to both scripts.
 GATHER = """#!/bin/bash
 # Gathers the study once no task of its array is left. Made by `polynya study slurm`.
 #SBATCH --job-name={name}-gather
@@ -48,8 +54,9 @@ exec {program} study gather {folder}
 
 
 def chunks_to_run(study, retries_failed=False):
-    """Chunks with a case that has not ended, or whose archive must still be packed. With `retries_failed`, failed cases
-    have not ended. A packed chunk is left out even if it has failed cases."""
+    """Numbers of the chunks with a case that has not ended, or whose archive must still be packed. With
+    `retries_failed`, failed cases count as not ended. A packed chunk is left out even if it has failed cases and
+    `retries_failed` is given; `polynya study run --retry-failed` runs those again."""
     ended = {"finished"} if retries_failed else {"finished", "failed"}
     chunks = []
     for chunk in range(study.chunks):
@@ -61,8 +68,9 @@ def chunks_to_run(study, retries_failed=False):
 
 
 def write_scripts(study, options):
-    """Writes array.sbatch and gather.sbatch in the study's folder `slurm`. Returns their paths and the number of tasks,
-    or (None, None, 0) if no chunk has a case to run."""
+    """Writes array.sbatch and gather.sbatch in the study's folder `slurm`, in place of earlier ones. `options` are
+    those of `polynya study slurm`. Returns their paths and the number of tasks, or (None, None, 0) if no chunk has a
+    case to run; earlier scripts then stay. Raises StudyError (code 2) if a path has a blank."""
     chunks = chunks_to_run(study, options.retry_failed)
     if not chunks:
         return None, None, 0
@@ -92,13 +100,16 @@ def write_scripts(study, options):
 
 
 def program_path():
-    """Absolute path of the program. Every machine of the cluster must find it there."""
+    """Absolute path of the program polynya. Every machine of the cluster must find it there. If the program is not on
+    the search path, its name is taken as relative to the working folder, and whether it is there is not checked."""
     found = shutil.which(program())
     return pathlib.Path(found or program()).absolute()
 
 
 def submit(array, gather):
-    """Submits both jobs and prints their ids. The gathering job waits until no task is left, however the tasks end."""
+    """Submits both jobs, given by the paths of their scripts, and prints their ids. The gathering job waits until no
+    task is left, however the tasks end. Raises StudyError (code 5) if sbatch refuses one. If it is the second, the
+    first is submitted already, and the error says how to submit the second."""
     job = sbatch([array])
     print(f"submitted   job {job}", flush=True)
     words = [f"--dependency=afterany:{job}", str(gather)]
@@ -111,7 +122,8 @@ def submit(array, gather):
 
 
 def sbatch(words):
-    """Submits a script. Returns the number of the job."""
+    """Submits a script with the command sbatch; `words` are its arguments. Returns the number of the job as a text.
+    Raises StudyError (code 5) if sbatch is missing or refuses."""
     if not shutil.which("sbatch"):
         raise StudyError(
             "sbatch is not there: submit on a machine of the cluster, or ./setup.sh slurm for one on this machine", 5
@@ -127,8 +139,9 @@ def sbatch(words):
 
 def parallel_line(study, hosts, jobs):
     """The chunks with cases to run, and the command line of GNU parallel that runs them, `jobs` chunks at a time on
-    each of these hosts, or on this machine if there are none. Each chunk runs as many cases at a time as its host has
-    processors."""
+    each of these hosts, or on this machine if there are none; "100%" is one per processor. Each chunk itself runs as
+    many cases at a time as its host has processors. Failed cases do not run again. Without chunks the command line has
+    no meaning; the caller does not print it."""
     chunks = chunks_to_run(study)
     login = f"--sshlogin {shlex.quote(','.join(hosts))} " if hosts else ""
     command = (

@@ -14,7 +14,9 @@ from .folder import RUN, write_plan
 def estimate(study, seconds, jobs):
     """Runs the first case for at most `seconds` of wall time, prints an estimate for all cases with `jobs` at a time,
     and stores that of one case in the plan. The case keeps its result or its checkpoint, so the work is not lost. There
-    is no trial if the first case has been started before, and no estimate if it fails; neither is an error."""
+    is no trial if the first case has been started before, and no estimate if it fails or computes nothing in that time;
+    none of this is an error, but the last two are reported on stderr. The memory is that of the largest program that
+    this process has run; it is not extrapolated."""
     if state_of(study.case_folder(0))[0] != "missing":
         return
     reader, writer = os.pipe()
@@ -55,8 +57,9 @@ def estimate(study, seconds, jobs):
 
 
 def part_done(folder, state):
-    """Fraction of the simulated time of the case in `folder` that has been computed [-]. Time and space are
-    extrapolated by it, as if every simulated second cost the same."""
+    """Fraction of the simulated time of the case in `folder` that has been computed [-]: 1 if its `state` is
+    "finished", 0 if its summary has no time. Time and space are extrapolated by it, as if every simulated second cost
+    the same. Runs whose floes break more and more are therefore estimated too low."""
     if state == "finished":
         return 1.0
     done = summary_of(folder / RUN).get("sim_time_s", 0)
@@ -74,7 +77,8 @@ def size_of(folder):
 
 
 def in_time(seconds):
-    """A duration in the largest unit of which it has at least two: 110 s, 3.5 min."""
+    """A duration, given in seconds, in the largest unit of which it has at least two: 110 s, 3.5 min, otherwise in
+    seconds."""
     for unit, size in (("days", 86400), ("h", 3600), ("min", 60)):
         if seconds >= 2 * size:
             return f"{seconds / size:.3g} {unit}"
@@ -82,7 +86,7 @@ def in_time(seconds):
 
 
 def in_bytes(count):
-    """A number of bytes with a decimal prefix: 1 kB is 1000 B."""
+    """A number of bytes with a decimal prefix up to TB: 1 kB is 1000 B."""
     for unit in ("B", "kB", "MB", "GB", "TB"):
         if count < 1000 or unit == "TB":
             return f"{count:.3g} {unit}"
