@@ -49,7 +49,8 @@ struct FloeProperty {
 /// Returns all properties that are numbers, except floe_id. The properties of ice come first.
 std::span<const FloeProperty> floe_properties();
 
-/// Number of properties of ice, which come first in floe_properties(). Only these have a member of Ice.
+/// Number of properties of ice, which come first in floe_properties(). Only these have a member of Ice. It must be
+/// raised with a new one; if it is too large, null members are used.
 inline constexpr std::size_t kFloeIceProperties = 6;
 /// Returns the properties of ice that a single floe may have. Each is a key of the scene's "ice", of an entry of
 /// "floes", of the properties of a feature in a floe file, and of the floes that a run writes.
