@@ -38,8 +38,10 @@ struct ImportSettings {
 
 /// A floe in the plane, as an import writes it. One floe of the file may become several of these, or none.
 struct ImportedFloe {
-  geometry::Polygon polygon;  ///< valid, in house notation [m]
-  std::size_t source = 0;     ///< index of the floe of the file from which it was made; of joined floes the first one
+  /// Valid, in house notation: outer ring counter-clockwise, holes clockwise, no point twice (geometry::normalised)
+  /// [m].
+  geometry::Polygon polygon;
+  std::size_t source = 0;  ///< index of the floe of the file from which it was made; of joined floes the first one
 };
 
 /// Changes that an import made to one floe of the file. Only floes that were changed or refused have one. Floes of the

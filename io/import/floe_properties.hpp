@@ -27,6 +27,7 @@ struct FloeProperties {
   std::optional<double> tensile_strength;      ///< [Pa]
   std::optional<double> fracture_toughness;    ///< [Pa √m]
   /// Velocity over ground along the first axis of the coordinates [m/s]. An import turns it to the axes of the plane.
+  /// If only one component is given, the other one is 0.
   std::optional<double> velocity_x;
   std::optional<double> velocity_y;          ///< along the second axis [m/s]
   std::optional<double> angular_velocity;    ///< counter-clockwise [°/s]

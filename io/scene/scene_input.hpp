@@ -151,8 +151,8 @@ struct FieldChannel {
 /// (FloeField::law), on which the defaults of the other optional values depend; least_corners, aspect, orientation and
 /// packing need a law.
 struct FieldInput {
-  std::variant<FieldRectangle, FieldOutline, FieldChannel> region;
-  simulation::FloeField field;                     ///< concentration, gap, law of sizes and seed
+  std::variant<FieldRectangle, FieldOutline, FieldChannel> region;  ///< where the floes are; exactly one is given
+  simulation::FloeField field;                                      ///< concentration, gap, law of sizes and seed
   std::optional<double> floe_size, size_spread;    ///< mean size [m], and standard deviation / mean of the sizes [-]
   std::optional<int> most_corners, least_corners;  ///< largest and smallest number of corners of a floe
   /// Mean length / width of the floes [-], direction of their length from the x axis [rad], and concentration between
@@ -188,8 +188,11 @@ struct FileInput {
   std::optional<FileImport> import;  ///< none: the floes are only brought to the plane, and an invalid one is an error
 };
 
-/// One entry of the scene's "floes": one floe or many, and the values that they have in common.
+/// One entry of the scene's "floes": one floe or many, and the values that they have in common. Values that a floe of a
+/// file has itself replace those of its entry. Exceptions: a floe is fast if one of both says so, and a given
+/// has_crushed_overlaps or source_floe of the entry wins.
 struct FloeGroup {
+  /// Exactly one of these is given; a polygon is a single floe [m].
   std::variant<LatticeInput, RectangleInput, geometry::Polygon, FieldInput, ChannelInput, FileInput> form = {};
   bool is_fast = false;              ///< true: fast ice, and the velocity is over ground
   geometry::Vector velocity;         ///< velocity relative to the water, for fast ice over ground [m/s]
@@ -198,7 +201,7 @@ struct FloeGroup {
   /// True: the floes may overlap other bodies where ice was crushed, as a run left them. Not given: true for floes of a
   /// file that a run wrote, or else false.
   std::optional<bool> has_crushed_overlaps;
-  std::optional<std::int64_t> source_floe;  ///< id of the floe in the file from which it was read
+  std::optional<std::int64_t> source_floe;  ///< id of the floe in the file from which it was read; none: no file
   /// Name of the ship under whose hull the floes are at the start; not given: they float.
   std::optional<std::string> under_hull_of;
   /// Distance that this ship's hull has moved over them since they went under [m]; not given: 0.
