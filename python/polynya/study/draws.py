@@ -12,7 +12,9 @@ import statistics
 from .located_json import shown
 
 STANDARD = statistics.NormalDist()  # mean 0, standard deviation 1
-KINDS = {  # numbers that each distribution needs, besides the optional ones of BOUNDS
+# Numbers that each distribution needs, besides the optional ones of BOUNDS. "low" and "high" are its ends, "sd" is its
+# standard deviation.
+KINDS = {
     "uniform": ("low", "high"),
     "log_uniform": ("low", "high"),
     "normal": ("mean", "sd"),
