@@ -12,10 +12,11 @@
 
 namespace polynya::io {
 
-/// Settings of an import: which changes it makes to the floes of a file. docs/import.md states
-/// their order. Each is an option of `polynya import` and a key of an entry's "import" in a scene.
+/// Settings of an import: which changes it makes to the floes of a file. They are made in this order: plane, join,
+/// repair, simplify, gap, least area (docs/import.md). Each is an option of `polynya import` and a key of an entry's
+/// "import" in a scene.
 struct ImportSettings {
-  PlaneSettings plane;
+  PlaneSettings plane;  ///< plane to which the coordinates of the file are brought
   /// Polygons of one feature, and polygons on both sides of longitude 180 with equal properties, are joined if their
   /// boundaries are within this distance of each other [m]. Slits narrower than this are closed, and corners move by up
   /// to this distance. With 0 nothing is joined.
@@ -24,19 +25,23 @@ struct ImportSettings {
   /// floes with invalid outlines are refused.
   std::optional<geometry::FillRule> repair;
   /// Vertices are left out if they lie within this distance of the remaining outline [m]. A larger value leaves out
-  /// more vertices. With 0 all vertices are kept.
+  /// more vertices, so that runs take less time. With 0 all vertices are kept. A floe whose outline would become
+  /// invalid keeps all of its vertices.
   double simplify = 0;
   /// Pieces with less area than this are dropped [m²]. Pieces that cannot be a rigid body (simulation::can_be_floe) are
-  /// dropped even with 0.
+  /// dropped even with 0. It is compared after overlaps were cut off.
   double least_area = 0;
-  /// Least distance between two floes [m]. The smaller of the two is cut back to it. With 0 only overlaps are cut off.
+  /// Least distance between two floes [m]. The smaller of the two, by area, is cut back to it. With 0 only overlaps are
+  /// cut off. With a larger value floes do not touch at the start of a run.
   double gap = 0;
 };
 
 /// A floe in the plane, as an import writes it. One floe of the file may become several of these, or none.
 struct ImportedFloe {
-  geometry::Polygon polygon;  ///< valid, in house notation [m]
-  std::size_t source = 0;     ///< index of the floe of the file from which it was made; of joined floes the first one
+  /// Valid, in house notation: outer ring counter-clockwise, holes clockwise, no point twice (geometry::normalised)
+  /// [m].
+  geometry::Polygon polygon;
+  std::size_t source = 0;  ///< index of the floe of the file from which it was made; of joined floes the first one
 };
 
 /// Changes that an import made to one floe of the file. Only floes that were changed or refused have one. Floes of the
@@ -80,11 +85,11 @@ struct ImportTotals {
   double area_change = 0;   ///< written − read
 };
 
-/// Result of an import.
+/// Result of an import. It may have no floes.
 struct ImportOutcome {
   std::vector<ImportedFloe> floes;  ///< floes to be written, in the order of their sources
   std::vector<ImportItem> items;    ///< floes that were changed or refused, in the order of their sources
-  PlaneReport plane;
+  PlaneReport plane;                ///< how the coordinates were brought to the plane
   ImportTotals totals;
 };
 
@@ -108,7 +113,8 @@ FloesOfText floes_of(const FloeText& text, const PropertyRules& rules);
 /// outlines, cuts overlaps off the smaller floe of two (geometry/cut/overlap.hpp), and drops small pieces. `floes` are
 /// changed to coordinates and velocities of the plane, and the refused ones are marked; the result refers to them by
 /// index for their properties. `place` is the coordinate system that the file states. Fails if the floes as a whole
-/// have no place in the plane (bring_to_plane).
+/// have no place in the plane (bring_to_plane). A floe that cannot be imported is no failure: it is refused, and the
+/// others are imported.
 tl::expected<ImportOutcome, PlaneError> import_floes(std::vector<SourceFloe>& floes, const FilePlace& place,
                                                      const ImportSettings& settings);
 
@@ -121,21 +127,23 @@ struct ImportedIds {
   std::string note;  ///< why ids of the file were not kept, in words; empty: they were, or the file has none
 };
 /// Returns ids for imported floes. If each source that is left has a whole number as its id, and these differ, the ids
-/// of the file are kept; otherwise floes are numbered from 0. Further pieces of a source get larger numbers than all
-/// others.
+/// of the file are kept; otherwise floes are numbered from 0 in their order. The first piece of each source gets such
+/// an id, and further pieces get larger numbers than all others.
 ImportedIds ids_of(const ImportOutcome& imported, const std::vector<SourceFloe>& floes,
                    const std::vector<FloeEntry>& entries);
 
 /// Returns the imported floes as a GeoJSON FeatureCollection in metres of the plane, one feature per line, with members
 /// that state the place of the plane on the Earth. A feature has Polynya's properties of its floe, and all other
 /// properties of its source unchanged. `floes` are the ones that import_floes() was given; `entries` are the entries of
-/// the file, one for each of its floes.
+/// the file, one for each of its floes, and `ids` is what ids_of() returns for them. Refused and dropped floes are not
+/// in it.
 std::string to_geojson(const ImportOutcome& imported, const std::vector<SourceFloe>& floes,
                        const std::vector<FloeEntry>& entries, const ImportedIds& ids);
 
 /// Returns the report of an import as JSON (docs/import.md): totals, how the coordinates were projected, and each floe
 /// that was changed or refused. `file` is the name of the file, `read` has the near misses, and `notes` are all notes
-/// of the import, also the ones in `read`.
+/// of the import, also the ones in `read`. Areas that were cut off or dropped are negative in it, unlike those of
+/// ImportItem and ImportTotals.
 std::string to_json_text(const ImportOutcome& imported, const std::string& file, const std::vector<FloeEntry>& entries,
                          const FloesOfText& read, const std::vector<std::string>& notes);
 
@@ -151,7 +159,8 @@ std::string thickness_in_words(std::size_t with_thickness, std::size_t floes);
 /// dropped = 119.9 m2 written".
 std::string areas_in_words(const ImportTotals& totals);
 
-/// Says how the coordinates were projected to the plane: "WGS 84, projected about 78.2, 15.6".
+/// Says how the coordinates were projected to the plane: "WGS 84, projected about 78.2, 15.6" (latitude, longitude
+/// [°]).
 std::string plane_in_words(const PlaneReport& plane);
 
 /// Says what happened to a floe: "self-crossing at (0, 0), repaired, +3 m2; trimmed, 2 m2 to feature 3". Simplifying is

@@ -20,7 +20,7 @@ namespace polynya::io {
 /// number of its bytes. The payload has the members of this struct in their order, in the layout of
 /// simulation/state/archive.hpp.
 struct Checkpoint {
-  std::string program_version;  ///< version of the program that wrote it, for information
+  std::string program_version;  ///< version of the program that wrote it, for information; it is not compared
   /// Hash of the run's scene without its end (LoadedScene::course_hash). A run of another scene cannot be resumed from
   /// the checkpoint, but the end may be changed.
   std::string course_hash;
@@ -46,36 +46,40 @@ std::string checkpoint_file_of(std::string_view payload);
 /// Returns the bytes of the file of a checkpoint.
 std::string checkpoint_bytes(const Checkpoint& checkpoint);
 
-/// Writes a checkpoint to a temporary name, waits until the disk has stored it, and renames it to `path`.
+/// Writes a checkpoint to a temporary name, waits until the disk has stored it, and renames it to `path`. A file of
+/// that name is replaced; if writing fails, it stays as it was. The error names the file.
 Result<> write_checkpoint_file(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
 /// Reads the bytes of a checkpoint file. Fails if they are no checkpoint, are damaged, or have another version. The
-/// simulation's state in it is not checked; simulation_at() does that.
+/// error does not name a file. The simulation's state in it is not checked; simulation_at() does that.
 Result<Checkpoint> read_checkpoint(std::string_view bytes);
 
 /// Returns true if a file has the name of a checkpoint: "checkpoint-", 12 digits, ".bin". The file is not read.
 bool is_checkpoint(const std::filesystem::path& path);
 
 /// Returns the checkpoints in a run folder, newest first; none if there is no such folder. The name of a checkpoint has
-/// its number of steps: "checkpoint-000000012000.bin".
+/// its number of steps: "checkpoint-000000012000.bin". Only names are looked at, so a file may be damaged.
 std::vector<std::filesystem::path> checkpoints_in(const std::filesystem::path& folder);
 
 /// Writes a checkpoint into a run folder. Then all other checkpoints are removed except the newest older one, which
-/// remains in case the new one turns out to be damaged or to contain a failure. A failure to remove one is ignored.
+/// remains in case the new one turns out to be damaged or to contain a failure. A failure to remove one is ignored. If
+/// the new one cannot be written, this fails and removes none.
 Result<> write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 
 /// Prepares a run folder for resuming from a checkpoint. Copies the checkpoint into the folder if `file`, from which it
 /// was read, is not the folder's own file, and removes newer checkpoints, which belong to the part of the run that is
-/// discarded.
+/// discarded. Older ones stay. Fails if a file cannot be written or removed; what was removed before is then lost.
 Result<> rewind_to(const std::filesystem::path& folder, const Checkpoint& checkpoint,
                    const std::filesystem::path& file);
 
 /// Reads a checkpoint from a file. Fails if it cannot be read, or if `course_hash` (LoadedScene::course_hash) of the
-/// scene that is to be resumed is not that of the checkpoint. The error names the file.
+/// scene that is to be resumed is not that of the checkpoint. The error names the file. Fails also as read_checkpoint()
+/// does.
 Result<Checkpoint> read_checkpoint_file(const std::filesystem::path& path, std::string_view course_hash);
 
 /// Removes checkpoints from a folder, except the newest `kept` ones. Also removes unfinished files of checkpoints
-/// ("….bin.part"), which a crash left.
+/// ("….bin.part"), which a crash left. Stops and fails at the first file that cannot be removed. A folder that does not
+/// exist has none, so this succeeds.
 Result<> remove_checkpoints(const std::filesystem::path& folder, std::size_t kept = 0);
 
 }  // namespace polynya::io

@@ -26,8 +26,9 @@ namespace polynya::io {
 /// motion by more than one of the tolerances below.
 
 // Largest errors of the recorded motion of a floe at a frame. Larger values make frames.bin shorter, because floes that
-// hardly accelerate need records less often. All places of floes that are read from a run have these errors: in the
-// player, in exports and in scenes that continue a run.
+// hardly accelerate need records less often. Smaller values make it longer. All places of floes that are read from a
+// run have these errors: in the player, in exports and in scenes that continue a run. Checkpoints have exact states, so
+// resumed runs are not affected.
 inline constexpr double kFramePositionTolerance = 1e-3;  ///< for x and for y [m]
 inline constexpr double kFrameAngleTolerance = 1e-5;     ///< [rad]
 inline constexpr double kFrameSpeedTolerance = 1e-3;     ///< for each component of the velocity [m/s]
@@ -50,12 +51,12 @@ void fields(Archive& archive, simulation::Is<Motion> auto& m) {
   archive(m.position, m.angle, m.velocity, m.angular_velocity);
 }
 
-/// Returns the motion after a time [s] at constant velocity and angular velocity; a negative time goes back.
+/// Returns the motion after `duration` [s] at constant velocity and angular velocity; a negative one goes back.
 Motion carried_on(const Motion& motion, double duration);
 
 /// A floe in a frame. The bytes of this struct are those of the file.
 struct FloeMotion {
-  simulation::FloeId floe = 0;
+  simulation::FloeId floe = 0;  ///< id of the floe in its run
   Motion motion;
 };
 
@@ -65,7 +66,8 @@ struct RecordedMotion {
   Motion motion;
 };
 
-/// Returns the bytes of a frame at a time [s] with exactly these ships and floes, without comparing any tolerance.
+/// Returns the bytes of a frame at a time [s] with exactly these ships and floes, without comparing any tolerance. A
+/// FrameEncoder does not learn of it.
 std::string frame_bytes(double time, std::span<const Motion> ships, std::span<const FloeMotion> floes);
 
 /// Encodes the frames of a run. It stores the last record of each floe to decide which floes the next frame needs.
@@ -77,13 +79,16 @@ class FrameEncoder {
 
   /// Returns the bytes with which the file begins, before the first frame.
   static std::string header();
-  /// Begins a frame at a time [s]. A frame is encoded by begin(), then add() for each living floe, then end().
+  /// Begins a frame at a simulated time [s], which must not be before that of the last frame. `ships` are all hulls in
+  /// the order of the scene. A frame is encoded by begin(), then add() for each living floe, also those under hulls,
+  /// then end().
   void begin(double time, std::span<const Motion> ships);
-  /// Adds a floe to the frame if the floe needs a record.
+  /// Adds a floe to the frame if the floe needs a record: its first one, or one because the last one, carried on to the
+  /// time of this frame, exceeds a tolerance. Otherwise the last record stays the floe's last one.
   void add(const FloeMotion& floe);
-  /// Returns the bytes of the frame.
+  /// Returns the bytes of the frame. A frame without floes is complete too.
   std::string end();
-  /// Returns the last record of each floe by its id.
+  /// Returns the last record of each floe by its id, for a checkpoint. Ids that no frame has have a negative time.
   const std::vector<RecordedMotion>& recorded() const { return recorded_; }
 
  private:
@@ -95,14 +100,15 @@ class FrameEncoder {
 
 /// A frame read back.
 struct Frame {
-  double time = 0;  ///< [s]
-  std::vector<Motion> ships;
+  double time = 0;                ///< [s]
+  std::vector<Motion> ships;      ///< all hulls in the order of the scene
   std::vector<FloeMotion> floes;  ///< only those with a record in this frame
 };
 
-/// Reads the bytes of a whole file. A last frame that is cut short is ignored, or is an error if `is_whole`, as in the
-/// file of a run that finished. Fails if the file has another format or version, or if a frame is damaged or has a
-/// number that is not finite. The message then has the number of the frame, from 1, and the byte at which it begins.
+/// Reads the bytes of a whole file. A last frame that is cut short, as a killed run may leave, is ignored, or is an
+/// error if `is_whole`, as in the file of a run that finished. A file without frames gives an empty list. Fails if the
+/// file has another format or version, or if a frame is damaged or has a number that is not finite. The message then
+/// has the number of the frame, from 1, and the byte at which it begins.
 Result<std::vector<Frame>> decode_frames(std::string_view bytes, bool is_whole = false);
 
 }  // namespace polynya::io

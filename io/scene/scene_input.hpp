@@ -28,11 +28,11 @@ namespace polynya::io {
 /// scene may have a million floes.
 struct SceneInput {
   std::string name = "scene";
-  simulation::Scene scene;
-  std::string description;
+  simulation::Scene scene;  ///< without bodies
+  std::string description;  ///< for people; a run ignores it
 };
 
-/// Hull by main dimensions: a bow of two straight flanks, and a parallel body.
+/// Hull by main dimensions: a bow of two straight flanks, and a parallel body with a straight stern.
 struct WedgeBow {
   double length = 0;          ///< length of the waterline [m]
   double beam = 0;            ///< beam of the waterline [m]
@@ -51,9 +51,9 @@ struct HullOutline {
 /// Propulsion by an engine. The diameter gives the size of the race on a rudder, and the bollard pull if that is
 /// missing.
 struct EngineInput {
-  dynamics::Engine engine;        ///< a bollard pull of 0 is computed from power, diameter and number of propellers
-  double propeller_diameter = 0;  ///< diameter of one propeller [m]; 0: a fraction of the draught, only for the race
-  int propellers = 1;
+  dynamics::Engine engine;          ///< a bollard pull of 0 is computed from power, diameter and number of propellers
+  double propeller_diameter = 0;    ///< diameter of one propeller [m]; 0: a fraction of the draught, only for the race
+  int propellers = 1;               ///< number of equal propellers
   std::optional<bool> has_nozzles;  ///< ducted propellers; not given: false
 };
 
@@ -66,15 +66,16 @@ struct MooringInput {
 
 /// One entry of the scene's "ships".
 struct ShipInput {
-  std::string name = "ship-#";  ///< # is replaced by the number of the entry, from 1
-  simulation::Ship spec;        ///< a mass or moment of inertia of 0 is computed from the hull
-  std::variant<WedgeBow, HullOutline> form;
-  std::optional<double> sway_speed;  ///< initial speed over ground to port [m/s]; not given: 0
-  std::optional<double> yaw_rate;    ///< initial yaw rate [rad/s]; not given: 0
+  std::string name = "ship-#";               ///< # is replaced by the number of the entry, from 1
+  simulation::Ship spec;                     ///< a mass or moment of inertia of 0 is computed from the hull
+  std::variant<WedgeBow, HullOutline> form;  ///< the scene gives exactly one
+  std::optional<double> sway_speed;          ///< initial speed over ground to port [m/s]; not given: 0
+  std::optional<double> yaw_rate;            ///< initial yaw rate [rad/s]; not given: 0
+  /// What drives the ship; the scene gives exactly one. A ship with a constant speed keeps it whatever the ice does.
   std::variant<simulation::ConstantThrust, simulation::ConstantSpeed, EngineInput> propulsion;
   std::optional<simulation::Steering> steering;    ///< needs an engine; not given: the ship cannot be steered
   std::optional<simulation::PilotSettings> pilot;  ///< needs an engine; not given: full ahead, rudder amidships
-  std::optional<MooringInput> mooring;
+  std::optional<MooringInput> mooring;             ///< not given: the ship floats freely
 };
 
 /// A cylinder or cone.
@@ -97,7 +98,8 @@ struct WallInput {
   geometry::Point from, to;                  ///< ends of the face; the ice is on the left of the way to `to` [m]
   double depth = 10;                         ///< depth of the wall's body behind the face [m]
   std::optional<geometry::Vector> velocity;  ///< constant velocity over ground [m/s]; not given: 0
-  std::optional<simulation::WallPressure> pressure;  ///< load that moves the wall instead; excludes a velocity
+  /// Load that moves the wall instead; excludes a velocity. Without both the wall stands still.
+  std::optional<simulation::WallPressure> pressure;
 };
 
 /// Law from which an ice property is drawn for each floe, in the unit of the property (fracture::ScatterLaw). Values
@@ -114,7 +116,7 @@ using NumberOrLaw = std::variant<double, LawInput>;
 /// Ice properties of the floes of an entry that differ from those of the scene.
 struct IceInput {
   std::array<std::optional<NumberOrLaw>, kFloeIceProperties> properties;  ///< in the order of floe_ice_properties()
-  std::uint64_t seed = 0;  ///< seed of the draws, to which the scene's seed is added
+  std::uint64_t seed = 0;  ///< seed of the draws, to which the scene's seed is added; another one draws other values
 };
 
 /// Equal rectangular floes in rows and columns.
@@ -131,24 +133,26 @@ struct RectangleInput {
   geometry::Vector size;   ///< sides along x and y before the rotation [m]
   double angle = 0;        ///< rotation about the corner [rad]
 };
-// The region of a random field.
+/// Region of a random field: a rectangle along the axes.
 struct FieldRectangle {
   geometry::Point corner;   ///< corner with the smallest x and y [m]
   geometry::Vector extent;  ///< sides along x and y [m]
 };
+/// Region of a random field: a polygon without holes.
 struct FieldOutline {
   geometry::Ring ring;  ///< outline of the region [m]
 };
+/// Region of a random field: a strip along a line, such as the channel of an earlier ship.
 struct FieldChannel {
-  std::vector<geometry::Point> centreline;  ///< [m]
-  double width = 0;                         ///< [m]
+  std::vector<geometry::Point> centreline;  ///< points of its middle line, at least two [m]
+  double width = 0;                         ///< across the middle line, half of it on each side [m]
 };
 /// A random field of convex floes. Sizes are √area. The field has either a mean size or a law of sizes
 /// (FloeField::law), on which the defaults of the other optional values depend; least_corners, aspect, orientation and
 /// packing need a law.
 struct FieldInput {
-  std::variant<FieldRectangle, FieldOutline, FieldChannel> region;
-  simulation::FloeField field;                     ///< concentration, gap, law of sizes and seed
+  std::variant<FieldRectangle, FieldOutline, FieldChannel> region;  ///< where the floes are; exactly one is given
+  simulation::FloeField field;                                      ///< concentration, gap, law of sizes and seed
   std::optional<double> floe_size, size_spread;    ///< mean size [m], and standard deviation / mean of the sizes [-]
   std::optional<int> most_corners, least_corners;  ///< largest and smallest number of corners of a floe
   /// Mean length / width of the floes [-], direction of their length from the x axis [rad], and concentration between
@@ -158,10 +162,11 @@ struct FieldInput {
 };
 /// A channel of brash ice between fast ice. Values that are left out are filled in when the scene is read.
 struct ChannelInput {
-  FieldInput brash;                      ///< pieces of the equivalent layer; its region is a FieldChannel
-  double thickness = 0;                  ///< thickness of the brash in the middle, with its pores [m]
-  std::optional<double> side_thickness;  ///< thickness of the brash at the sides, with its pores; as in the middle [m]
-  double porosity = 0.2;                 ///< porosity of the brash [-]
+  FieldInput brash;      ///< pieces of the equivalent layer; its region is a FieldChannel
+  double thickness = 0;  ///< thickness of the brash in the middle, with its pores [m]
+  /// Thickness of the brash at the sides, with its pores [m]; not given: as in the middle.
+  std::optional<double> side_thickness;
+  double porosity = 0.2;  ///< fraction of the brash that is water [-]; larger: less ice
   /// Fraction of the channel that the pieces cover [-]; not given: 1 − porosity, but at most 0.9. A smaller cover makes
   /// thicker pieces.
   std::optional<double> cover;
@@ -172,10 +177,10 @@ struct ChannelInput {
 };
 /// Import of the floes of a file, as `polynya import` does it (docs/import.md).
 struct FileImport {
-  ImportSettings settings;  ///< without the origin of the plane, which is the scene's, and the words for messages
-  Selection selection;
+  ImportSettings settings;      ///< without the origin of the plane, which is the scene's, and the words for messages
+  Selection selection;          ///< which features of the file are imported
   std::string properties;       ///< names of properties in the file: "thickness_m=CM*0.01, floe_id=FID"
-  std::vector<double> no_data;  ///< numbers that mean "no value" in a property
+  std::vector<double> no_data;  ///< numbers that mean "no value" in a property: the scene's values apply then
 };
 /// The floes of a file.
 struct FileInput {
@@ -183,23 +188,28 @@ struct FileInput {
   std::optional<FileImport> import;  ///< none: the floes are only brought to the plane, and an invalid one is an error
 };
 
-/// One entry of the scene's "floes": one floe or many, and the values that they have in common.
+/// One entry of the scene's "floes": one floe or many, and the values that they have in common. Values that a floe of a
+/// file has itself replace those of its entry. Exceptions: a floe is fast if one of both says so, and a given
+/// has_crushed_overlaps or source_floe of the entry wins.
 struct FloeGroup {
+  /// Exactly one of these is given; a polygon is a single floe [m].
   std::variant<LatticeInput, RectangleInput, geometry::Polygon, FieldInput, ChannelInput, FileInput> form = {};
-  bool is_fast = false;         ///< true: fast ice, and the velocity is over ground
-  geometry::Vector velocity;    ///< velocity relative to the water, for fast ice over ground [m/s]
-  double angular_velocity = 0;  ///< angular velocity relative to the rotation of the water [rad/s]
-  std::optional<IceInput> ice = {};
+  bool is_fast = false;              ///< true: fast ice, and the velocity is over ground
+  geometry::Vector velocity;         ///< velocity relative to the water, for fast ice over ground [m/s]
+  double angular_velocity = 0;       ///< angular velocity relative to the rotation of the water [rad/s]
+  std::optional<IceInput> ice = {};  ///< not given: all ice properties are the scene's or the file's
   /// True: the floes may overlap other bodies where ice was crushed, as a run left them. Not given: true for floes of a
   /// file that a run wrote, or else false.
   std::optional<bool> has_crushed_overlaps;
-  std::optional<std::int64_t> source_floe;   ///< id of the floe in the file from which it was read
-  std::optional<std::string> under_hull_of;  ///< name of the ship under whose hull the floes are at the start
+  std::optional<std::int64_t> source_floe;  ///< id of the floe in the file from which it was read; none: no file
+  /// Name of the ship under whose hull the floes are at the start; not given: they float.
+  std::optional<std::string> under_hull_of;
   /// Distance that this ship's hull has moved over them since they went under [m]; not given: 0.
   std::optional<double> under_hull_path;
 };
 
-// Keys, units, ranges and meanings of the records above, of the scene and of its ice.
+// Keys, units, ranges, defaults and meanings of the records above, of the scene and of its ice. A change here changes
+// the scenes that are accepted, the schema and docs/scene.md together.
 extern const Description<SceneInput> kSceneDescription;
 extern const Description<ShipInput> kShipDescription;
 extern const Description<StructureInput> kStructureDescription;
@@ -216,7 +226,7 @@ struct Origin {
   std::size_t group = 0;     ///< index in the scene's list of its kind
   int member = -1;  ///< number of the floe in its lattice, field, channel or file; −1: the only one of its entry
   bool is_known_valid = false;  ///< true if the outline is valid by construction, so that it is not checked again
-  simulation::BodyKind kind = simulation::BodyKind::kFloe;
+  simulation::BodyKind kind = simulation::BodyKind::kFloe;  ///< list to which `group` refers
 };
 
 /// A scene that has been read and must still be checked as a whole.

@@ -15,7 +15,7 @@ namespace polynya::io {
 struct JsonMember;
 
 /// A JSON value that stores where it stood in its text, so that messages can name the place. Objects keep the order of
-/// their members.
+/// their members. A new value is null.
 struct JsonValue {
   using Array = std::vector<JsonValue>;
   using Object = std::vector<JsonMember>;
@@ -48,7 +48,7 @@ struct JsonValue {
     const JsonValue* found = find(key);
     return found && found->is(kind) ? found : nullptr;
   }
-  /// Returns true if the object has this member and the member is this text.
+  /// Returns true if this is an object that has this member and the member is this text.
   bool has(std::string_view key, std::string_view text) const {
     const JsonValue* found = find(key, Kind::kText);
     return found && found->text() == text;
@@ -56,6 +56,7 @@ struct JsonValue {
   /// Sets a member of an object, and adds it if the object has none. A member that is added has the position of the
   /// object. Does nothing if this is not an object.
   void set(std::string_view key, Data value);
+  /// Does the same as the other find(), to change the member.
   JsonValue* find(std::string_view key) { return const_cast<JsonValue*>(std::as_const(*this).find(key)); }
 };
 
@@ -82,7 +83,7 @@ inline void JsonValue::set(std::string_view key, Data value) {
 }
 
 /// Calls use(offset) for the position of a value and of everything within it, and for the positions of keys. `use` may
-/// change them, for example if the value becomes part of another text.
+/// change them, for example if the value becomes part of another text. A value is visited before its items.
 template <class Use>
 void for_offsets(JsonValue& value, Use use) {
   use(value.offset);
@@ -97,14 +98,15 @@ void for_offsets(JsonValue& value, Use use) {
 }
 
 /// Returns the position [bytes] of the value at a path such as "hull.length_m" or "rows[2].t_s", or of the last value
-/// on the way that exists, as the place of a message about a value that may be missing.
+/// on the way that exists, as the place of a message about a value that may be missing. With an empty path it is that
+/// of the root.
 std::uint32_t nearest_offset(const JsonValue& root, std::string_view path);
 
 /// Returns the name of a kind in messages: "a number", "text" and so on.
 std::string_view name_of(JsonValue::Kind kind);
 
-/// Return the member of that key (and of that kind). Throw ReadError with the key if there is none. A reference into
-/// `value` is returned.
+/// Return the member of that key (and of that kind). Throw ReadError with the key if there is none, or if it is of
+/// another kind. A reference into `value` is returned.
 const JsonValue& json_member(const JsonValue& value, std::string_view key);
 const JsonValue& json_member(const JsonValue& value, std::string_view key, JsonValue::Kind kind);
 
@@ -121,14 +123,16 @@ struct JsonFault : Problem {
   std::uint32_t offset = 0;  ///< position in the text [bytes]
 };
 
+/// Result of parse_json().
 struct JsonDocument {
-  JsonValue root;
+  JsonValue root;                 ///< null if nothing could be read
   std::vector<JsonFault> faults;  ///< in the order of the text; empty if it has none
 };
 
 /// Reads JSON with // and /* */ comments. A syntax error ends the reading; the root is then the part that was read. A
 /// key that occurs twice is a fault, its first value counts, and the reading goes on. Nesting and length are limited
-/// (kDeepestNesting, kLongestText).
+/// (kDeepestNesting, kLongestText); deeper nesting ends the reading, and of a longer text nothing is read. NaN,
+/// Infinity and numbers beyond the range of a double are faults. A byte order mark at the start is skipped.
 JsonDocument parse_json(std::string_view text);
 
 /// Returns the first fault of a document in words with line and column, "12:5: found '=', allowed: a colon". `text` is
@@ -137,12 +141,12 @@ std::string first_fault(const JsonDocument& document, std::string_view text);
 
 /// Reads JSON in which NaN, Infinity and numbers beyond the range of a double may also occur, as Python and other
 /// programs write them. Each of these becomes an empty text, which cannot be mistaken for a number. The error is
-/// "line:column: words".
+/// "line:column: words" of the first fault. A key that occurs twice is an error here too.
 Result<JsonValue> parse_lenient_json(std::string_view text);
 
 /// Returns the value that begins at `offset` [bytes] of a text that parse_lenient_json accepts, as written but without
 /// blanks and comments. So numbers keep their digits in files that Polynya writes. Numbers that are not finite become
-/// null.
+/// null. The text is not checked again.
 std::string compact_json(std::string_view text, std::size_t offset);
 
 }  // namespace polynya::io

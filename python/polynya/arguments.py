@@ -7,11 +7,14 @@ import re
 import sys
 import textwrap
 
-COLUMN, WIDTH = 30, 100  # of --help: column in which meanings begin, and width of lines [characters]
+# Column of --help in which meanings begin, as in the commands in C++, and width of its lines [characters]. A larger
+# column leaves room for longer names, and narrower lines wrap meanings more often.
+COLUMN, WIDTH = 30, 100
 
 
 def meant_by(word, names):
-    """The end of a message on a mistyped word, with the name that is most like it; empty if none is."""
+    """The end of a message on a mistyped word, with the name that is most like it; empty if none is (similarity 0.6 of
+    difflib)."""
     near = difflib.get_close_matches(word, names, 1)
     return f"; did you mean {near[0]}?" if near else ""
 
@@ -42,8 +45,8 @@ WHOLE = number(1, kind=int)  # reads a whole number from 1
 
 
 def numbers(one=number(), count=None):
-    """Returns a function that reads a list of numbers, separated by commas. Each is read by `one`. There must be
-    `count` numbers, if that is given."""
+    """Returns a function that reads a list of numbers, separated by commas. Each is read by `one`, with its errors.
+    There must be `count` numbers, if that is given, otherwise at least one; blanks around a number are allowed."""
 
     def read(text):
         values = [one(part) for part in text.split(",")]
@@ -55,7 +58,8 @@ def numbers(one=number(), count=None):
 
 
 def choice(names):
-    """Returns a function that accepts one of these names."""
+    """Returns a function that accepts one of these names and returns it. It raises argparse.ArgumentTypeError, with the
+    name that may have been meant, for another one. Capitals matter."""
 
     def read(text):
         if text not in names:
@@ -66,14 +70,15 @@ def choice(names):
 
 
 def choices(names):
-    """Returns a function that reads a list of these names, separated by commas."""
+    """Returns a function that reads a list of these names, separated by commas without blanks. Names that occur twice
+    stay twice."""
     return lambda text: [choice(names)(part) for part in text.split(",")]
 
 
 class Parser(argparse.ArgumentParser):
     """Command line of `prog`, such as "polynya loads", in the form of the commands in C++. --help shows `meaning`, its
     purpose, without a full stop; `examples`, lines without "polynya"; then the options, and `rest` after them. Options
-    cannot be shortened. Errors end the process with exit code 2."""
+    cannot be shortened. Errors end the process with exit code 2, --help with 0."""
 
     def __init__(self, prog, meaning, examples, rest=""):
         super().__init__(prog=prog, allow_abbrev=False, add_help=False)
@@ -92,11 +97,11 @@ class Parser(argparse.ArgumentParser):
         return self.actions_of
 
     def commands(self):
-        """Name and parser of each command of this command."""
+        """{name: parser} of the actions of this command, in the order of add_parser(); empty if it has none."""
         return self.actions_of.choices if self.actions_of else {}
 
     def arguments(self):
-        """Positionals and options in their order."""
+        """Positionals and options in their order, as argparse's actions, without the choice of an action."""
         return [argument for argument in self._actions if argument is not self.actions_of]
 
     def format_help(self):
@@ -114,12 +119,13 @@ class Parser(argparse.ArgumentParser):
             parts.append("Subcommands:\n" + "".join(entry(name, of.meaning) for name, of in self.commands().items()))
         return "\n".join([*filter(None, parts), self.rest]).rstrip("\n") + "\n"
 
+    # The paragraph "Examples" of --help.
     def shown_examples(self):
         return "Examples:\n" + "".join(f"  polynya {example}\n" for example in self.examples)
 
     def parse_known_args(self, args=None, namespace=None):
-        """Parses as argparse does, but unknown words are an error, with the option that may have been meant. argparse
-        uses this method also for the words of an action."""
+        """Parses as argparse does, but unknown words are an error, with the option that may have been meant, so the
+        second result is always empty. argparse uses this method also for the words of an action."""
         found, rest = super().parse_known_args(self.joined(sys.argv[1:] if args is None else args), namespace)
         if rest:
             names = [name for argument in self.arguments() for name in argument.option_strings]
@@ -130,7 +136,8 @@ class Parser(argparse.ArgumentParser):
 
     def joined(self, words):
         """Joins each option and its value into one word, because argparse takes a value that begins with a dash, such
-        as -inf or -10,0, for an option."""
+        as -inf or -10,0, for an option. A word that begins with "--", or is -h, is never a value. Words after "--" stay
+        as they are."""
         valued = {name for a in self.arguments() if a.nargs is None for name in a.option_strings}
         found, left = [], list(words)
         while left:
@@ -146,7 +153,8 @@ class Parser(argparse.ArgumentParser):
         self.exit(2, f"{self.prog}: {self.in_plain_words(message)}\n{self.prog} --help explains its options\n")
 
     def in_plain_words(self, message):
-        """Rewrites a message of argparse in the words of the commands in C++."""
+        """Rewrites a message of argparse in the words of the commands in C++. Of several missing arguments only the
+        first is named. A message that is not known stays as it is, except for the word "argument"."""
         commands = list(self.commands())
         wrong = re.match(r"argument ACTION: invalid choice: '(.*?)' \(choose", message)
         if wrong:

@@ -13,6 +13,7 @@ import warnings
 
 # Exit codes with the values of console.hpp. Here FAILED means that memory ran out; INPUT_OUTPUT covers files, streams
 # and missing packages; DEFECT is an error of Polynya; CLOSED_PIPE means that the reader of the output has ended.
+# Scripts rely on them.
 FAILED, INPUT_OUTPUT, DEFECT, CLOSED_PIPE = 4, 5, 70, 141
 
 
@@ -36,7 +37,9 @@ def open_streams():
 
 
 def run(name, main):
-    """Runs the main() of a command and writes what it printed. Returns an exit code, whatever main() raises."""
+    """Runs the main() of a command and writes what it printed. Returns an exit code: that of main(), or that of
+    end_of() for whatever main() raises. If the output cannot be written, the code is not 0. After SIGINT this does not
+    return."""
     try:
         code = main()
     except BaseException as error:
@@ -50,6 +53,7 @@ def run(name, main):
 
 
 def fail(name, message, code=INPUT_OUTPUT):
+    """Prints a message on stderr, after the name of the command ("polynya loads"). Returns the exit code."""
     report(f"{name}: {message}")
     return code
 
@@ -64,8 +68,9 @@ def report(message):
 
 def end_of(name, error):
     """Prints the message for an exception that ended a command. Returns the exit code. An InputError has its own code
-    and states its places itself. A SystemExit must have a number or nothing; a text in it would be lost, with code
-    0."""
+    and states its places itself. A SystemExit must have a number or nothing; a text in it would be lost, with code 0. A
+    KeyboardInterrupt ends the process by SIGINT. Exceptions that are not named here are defects. `name` is that of the
+    command without "polynya"."""
     from .errors import FolderError, InputError, missing_package
 
     command = f"polynya {name}"
@@ -95,7 +100,8 @@ def end_of(name, error):
 
 
 def defect(name, error):
-    """Reports an error of the program in one line, after writing its traceback to a file."""
+    """Returns a message of one line about an error of the program, after writing its traceback to a new file in the
+    folder for temporary files. The message names the file, or says why it could not be written."""
     import tempfile
     import traceback
 
@@ -112,6 +118,8 @@ def defect(name, error):
         return f"{words}; its traceback could not be written: {fault.strerror}"
 
 
+# Runs the command that the first word names, with the other words, and returns its exit code. The module of the command
+# is imported within run(), so that a missing package is reported as an error and not as a traceback.
 def main():
     open_streams()
     if not sys.warnoptions:  # warnings of libraries are for developers, who use python3 -W default

@@ -8,7 +8,7 @@ import os
 
 def _plain(value):
     """Converts numpy's arrays and numbers, and paths, to types that JSON has. json.dumps calls it for each value that
-    it cannot write. Raises TypeError for any other type."""
+    it cannot write. Raises TypeError, with the type and the value, for any other type."""
     if hasattr(value, "tolist"):
         return value.tolist()
     if isinstance(value, os.PathLike):
@@ -32,8 +32,10 @@ def _first_not_finite(value, path=""):
 
 def scene_parts(given):
     """Returns (path, text, has_lines) of a scene. One of path and JSON text is empty. `has_lines` is False for a dict,
-    whose text is written here, so that messages must not name its lines. A str with a brace is JSON text, any other
-    one a path. Raises TypeError, FileNotFoundError, and ValueError for a dict that JSON cannot represent."""
+    whose text is written here, so that messages must not name its lines. A str with a brace is JSON text, any other one
+    a path; a path with a brace must be a pathlib.Path. Raises TypeError if the scene, or a value of the dict, has a
+    type that is not allowed, FileNotFoundError if there is no such file, and ValueError for a dict with a number that
+    is not finite, or nested too deep. Whether the text is a valid scene is not checked here."""
     if isinstance(given, collections.abc.Mapping):
         try:
             return "", json.dumps(dict(given), default=_plain, allow_nan=False), False

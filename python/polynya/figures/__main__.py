@@ -1,21 +1,24 @@
-"""`polynya figures` (polynya.command starts it)."""
+"""`polynya figures`: draws figures of runs into files (polynya.command starts it). matplotlib and numpy are imported
+only when they are needed, so that --help works without them."""
 import os
 import sys
 import time
 
 from ..command import fail, run
 
-COMMAND = "polynya figures"
-DONE, USAGE = 0, 2
+COMMAND = "polynya figures"  # prefix of messages
+DONE, USAGE = 0, 2  # exit codes, with the values of app/command_line/console.hpp
 
 
+# Prints a note about something that is left out or incomplete on stderr. The exit code does not depend on it.
 def note(words):
     print(f"note: {words}", file=sys.stderr)
 
 
 def problem_of(options, runs):
-    """Returns a message about options that do not apply to these runs; None if there is none. The times of --at must
-    lie within the first run; a map of another run that is shorter shows its end."""
+    """Returns a message about the first option that does not apply to these runs; None if all apply. `runs` are
+    results.Run objects. The times of --at must lie within the first run; a map of another run that is shorter shows its
+    end. Every run with ships or structures must have the load of --load."""
     from . import loads
 
     first = runs[0]
@@ -35,7 +38,8 @@ def problem_of(options, runs):
 
 
 def pages(options, runs):
-    """Returns (name, figure or None, reason if there is none) for each requested figure."""
+    """Yields (name, figure or None, reason if there is none) for each requested figure, in the order of --only, each
+    drawn when it is asked for. `runs` are Labelled runs, and STYLES has the width and other sizes of --style."""
     from . import energy, loads, maps, motion, sizes
     from .page import STYLES, Page
 
@@ -59,7 +63,8 @@ def pages(options, runs):
 
 def draw(options):
     """Draws the requested figures, and prints their paths. A figure that these runs cannot have is left out with a
-    note, and the exit code is still 0."""
+    note, and the exit code is still 0; its files of an earlier call stay. Returns USAGE, with a message, if an option
+    does not apply. Raises FolderError if a run cannot be read or has no frames; command.run() reports it."""
     from polynya.errors import FolderError
     from polynya.results.run import Run
 
@@ -93,6 +98,7 @@ def draw(options):
     return DONE
 
 
+# Runs the command with these words, by default those of the process, and returns its exit code.
 def main(words=None):
     from .options import command_line
 

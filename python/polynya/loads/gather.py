@@ -14,12 +14,16 @@ from polynya.naming import names_of
 from polynya.results.run import Run
 from polynya.results.tables import read_csv
 
-COMMON = 2.5  # length of panels if neither --panel nor the scene states it [m]
+# Length of panels if neither --panel nor the scene states it [m], as in the examples of docs/loads.md. Longer panels
+# have more peaks each, shorter ones show places more finely.
+COMMON = 2.5
 
 
 class Waterline:
     """Waterline of a hull. Positions are measured from the stem to port along it, as in contacts.csv
-    (simulation/ship/waterline.cpp)."""
+    (simulation/ship/waterline.cpp). The stem is the foremost vertex, or the middle of the foremost edge. `ring` is the
+    outline in the hull's frame [m], in either direction and not closed. It must be the same rule as in C++, or loads
+    are drawn at wrong places."""
 
     def __init__(self, ring):
         ring = numpy.asarray(ring, dtype=float)
@@ -36,7 +40,8 @@ class Waterline:
         self._points, self._arcs = closed, arcs - stem
 
     def at(self, arc):
-        """Points at these distances from the stem, in the hull's frame [m]."""
+        """Points at these arc lengths from the stem, in the hull's frame [m], as an array of n × 2. Negative lengths
+        lead to starboard, and lengths beyond the ends go on around the hull."""
         along = numpy.mod(numpy.asarray(arc, dtype=float) - self._arcs[0], self.length) + self._arcs[0]
         return numpy.column_stack([numpy.interp(along, self._arcs, self._points[:, k]) for k in (0, 1)])
 
@@ -45,11 +50,13 @@ class Waterline:
 class Case:
     """One of the gathered runs."""
 
-    number: int
-    start_s: float
-    hours: float
-    kilometres: float  #: distance over ground
-    kind: str = ""  #: runs of one kind differ only in their seeds
+    number: int  #: number of the case in its study, 0 for a single run
+    start_s: float  #: first simulated time that counts [s]
+    hours: float  #: simulated time from then on to the end of the run [h]
+    kilometres: float  #: distance over ground in that time [km]
+    #: Name of the kind; empty if all runs are of one kind. Runs of one kind differ only in the scene's seed, name,
+    #: description and duration.
+    kind: str = ""
 
 
 @dataclasses.dataclass
@@ -58,24 +65,26 @@ class Loads:
     `force_N`, the force along the contact's normal. `panels` has the columns of panels.csv, or is None if there are
     none."""
 
-    name: str
-    ship: str
+    name: str  #: name of the folder of the run or study
+    ship: str  #: name of the ship, structure or wall
     is_fixed: bool  #: True without propulsion; then loads are also drawn by direction
     waterline: Waterline
-    panel_m: float
-    cases: list[Case]
+    panel_m: float  #: length of the panels by which peaks are counted [m]
+    cases: list[Case]  #: the runs that count
     peaks: dict
     panels: Optional[dict]
     interval_s: float  #: length of the interval of a row of panels [s]
     left_out: int  #: number of peaks below the smallest that the runs record, in the whole runs
     beyond_limit: int = 0  #: number of peaks beyond the number that the runs record, in the whole runs
-    gauge_s: float = 0.0  #: time constant of the gauge that measured the peaks
+    gauge_s: float = 0.0  #: time constant of the gauge that measured the peaks [s]; 0: the force of each step
     ended: int = 0  #: number of runs that end before the first time that counts, and are left out
 
+    # Simulated time of all cases together [h], the exposure of all rates.
     @property
     def hours(self):
         return sum(case.hours for case in self.cases)
 
+    # Distance over ground of all cases together [km].
     @property
     def kilometres(self):
         return sum(case.kilometres for case in self.cases)
@@ -90,7 +99,8 @@ class Loads:
         return list(dict.fromkeys(case.kind for case in self.cases))
 
     def of_kind(self, kind):
-        """The loads of one kind of runs."""
+        """The loads of one kind of runs, as another Loads. Counts of peaks that were left out stay those of all
+        runs."""
         cases = [case for case in self.cases if case.kind == kind]
         numbers = [case.number for case in cases]
         chosen = {name: table and {key: values[numpy.isin(table["case"], numbers)] for key, values in table.items()}
@@ -103,7 +113,8 @@ class Loads:
 
 
 def runs_of(folder):
-    """(number of the case, folder) of each run."""
+    """(number of the case, folder) of each run: of a study those cases whose run folder is kept, otherwise the folder
+    itself with the number 0. Raises FolderError if a study has no run folder."""
     folder = pathlib.Path(folder)
     from polynya.study import folder as folders
     if not (folder / folders.PLAN).is_file():
@@ -118,33 +129,39 @@ def runs_of(folder):
     return found
 
 
+# Returns the rows of columns {name: array} that belong to a ship, from the time `start` on [s].
 def of_ship(columns, ship, start):
     chosen = (columns["ship"] == ship) & (columns["t_s"] >= start)
     return {name: values[chosen] for name, values in columns.items()}
 
 
 def kind_of(scene):
-    """The common properties of runs of one kind: the scene without its seed, duration and texts."""
+    """The common properties of runs of one kind, as JSON: the scene without its seed, duration, name and description.
+    Seeds of fields and of draws remain, so runs that differ in these are of different kinds."""
     shared = {key: value for key, value in scene.items() if key not in ("seed", "name", "description")}
     shared["time"] = {key: value for key, value in scene["time"].items() if key != "until_s"}
     return json.dumps(shared, sort_keys=True)
 
 
 def with_kinds(cases, scenes):
-    """Adds names of their kinds to the cases, formed from the differences; no names if all are of one kind."""
+    """Returns the cases with the names of their kinds, formed from the differences; the names are empty if all are of
+    one kind. `scenes` has what kind_of() returns for each case."""
     different = list(dict.fromkeys(scenes))
     names = names_of(different) if len(different) > 1 else {scene: "" for scene in different}
     return [dataclasses.replace(case, kind=names[scene]) for case, scene in zip(cases, scenes)]
 
 
 def case_of(number, run, ship, start):
-    """Duration of a run from `start` on [s], and the distance that the ship moves."""
+    """Returns the Case of a run from the time `start` on [s]: its duration [h] and the distance that the ship moves
+    [km]. Both are 0 for a run that ends before `start`."""
     rows = of_ship(run.force_columns, ship, start)
     way = numpy.hypot(numpy.diff(rows["x_m"]), numpy.diff(rows["y_m"])).sum() if len(rows["t_s"]) else 0.0
     begin = max(start, run.start_time)
     return Case(number, begin, max(0.0, run.end_time - begin) / 3600, float(way) / 1000)
 
 
+# Returns the member of the scene for the ship, structure or wall with this name; None: the first one. Raises InputError
+# if there is none.
 def body_of(run, ship):
     name = ship or (run.ship_names[0] if run.ship_names else None)
     if not run.ship_names:
@@ -155,12 +172,14 @@ def body_of(run, ship):
                 if body["name"] == name)
 
 
+# Joins the columns {name: array} of several runs, which must have the same names.
 def joined(parts):
     return {name: numpy.concatenate([part[name] for part in parts]) for name in parts[0]}
 
 
 def with_time(cases, scenes, start, end):
-    """The cases that have some time from `start` [s] on, with their scenes. `end` is the end of the longest run [s]."""
+    """Returns the cases that have some time from `start` [s] on, and the list of their scenes. `end` is the end of the
+    longest run [s]. Raises InputError if no case is left."""
     kept = [(case, scene) for case, scene in zip(cases, scenes) if case.hours > 0]
     if not kept:
         raise InputError(f"--from {start:g}: there are no records after {start:g} s, because the longest run ends at "
@@ -172,7 +191,8 @@ def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
     """Reads the peaks, and if they were recorded the panels, of a ship or structure (the first by default). Only times
     from `start` [s] of each run count. `panel` is the length of the panels by which peaks are counted [m]. Recorded
     panels are used only if all runs have them, with this length. Of the waterlines of runs only the numbers of vertices
-    are compared. Unfinished runs count up to their last record."""
+    are compared. Unfinished runs count up to their last record. Raises InputError if a run has no such body or another
+    waterline, or no time counts, and FolderError if a folder cannot be read."""
     cases, scenes, peaks, panels, left_out, beyond, end = [], [], [], [], 0, 0, 0.0
     first = None
     for number, run_folder in runs_of(folder):
@@ -210,7 +230,7 @@ def gather(folder, ship=None, start=0.0, panel=None) -> Loads:
 
 def facing(loads, columns):
     """Directions of the middles of panels with these numbers from the middle of the waterline, as angles from ahead to
-    port [rad]."""
+    port [rad], from −π to π, in the frame of the hull."""
     half = loads.waterline.length / 2
     low = numpy.clip(columns * loads.panel_m, -half, half)
     high = numpy.clip((columns + 1) * loads.panel_m, -half, half)

@@ -7,7 +7,7 @@ from . import words
 
 
 def shown(value):
-    """A cell in HTML: four significant digits of a number with decimals, and nothing for None."""
+    """A cell in HTML: four significant digits of a float, an empty cell for None, and any other value as a text."""
     return html.escape(f"{value:.4g}" if isinstance(value, float) else "" if value is None else str(value))
 
 
@@ -20,7 +20,9 @@ def cells(row, names):
 
 
 def table(heading, rows):
-    """A table of rows with its heading. Columns that are empty in all rows are left out."""
+    """A table of rows, which are dicts, with its heading. Its columns are the names in any of the rows, in the order in
+    which they first occur, and their heads have spaces instead of underscores. Columns that are empty in all rows are
+    left out. `heading` is not escaped, so it must be valid HTML."""
     names = list(dict.fromkeys(name for row in rows for name in row))
     names = [name for name in names if any(row.get(name) not in ("", None) for row in rows)]
     head = "".join(f"<th>{html.escape(name.replace('_', ' '))}</th>" for name in names)
@@ -29,8 +31,9 @@ def table(heading, rows):
 
 
 def fit_rows(estimates):
-    """Yields the rows of the table of fits, in words and units for people. "refuted" is empty unless a fit is
-    refuted."""
+    """Yields the rows of the table of fits, in words and units for people. `estimates` has (Loads, Estimate) by kind of
+    runs. "as one within" is the time within which peaks count as one event, and empty if each counts alone. "refuted"
+    is empty unless a fit is refuted."""
     for kind, (_, found) in estimates.items():
         for fit in found.fits:
             tail = fit.tail
@@ -41,7 +44,8 @@ def fit_rows(estimates):
 
 
 def answer_rows(answers, half_width):
-    """Yields the rows of the table of return values, in words. `half_width` is that of the wanted intervals, as a
+    """Yields the rows of the table of return values, in words. `answers` are pairs of a kind of runs and an
+    estimate.Answer; a force is "withheld" if there is no value. `half_width` is that of the wanted intervals, as a
     fraction of the value, on which the needed length of record depends."""
     for kind, given in answers:
         yield {"runs": kind, "once in": words.hours(given.period_h), "records": words.plain(given.records),
@@ -50,8 +54,10 @@ def answer_rows(answers, half_width):
 
 
 def page(loads, estimates, answers, options, tables, pictures):
-    """Returns the text of the page. `tables` are pairs of heading and rows, and stand at the end; tables without rows
-    are left out. `pictures` are pairs of file name and description, which is also the caption."""
+    """Returns the text of the page. `loads` is a gather.Loads, `estimates` and `answers` are as above, and `options`
+    those of the command. `tables` are pairs of heading and rows, and stand at the end; tables without rows are left
+    out. `pictures` are pairs of file name and description, which is also the caption. Reasons why return values are
+    withheld are paragraphs below their table, each with its kind of runs."""
     start = f", from {options.start:g} s of each on" if options.start else ""
     notes = [f"{kind + ': ' if kind else ''}{why}" for kind, (_, found) in estimates.items()
              for why in words.reasons([given for of_kind, given in answers if of_kind == kind], found)]

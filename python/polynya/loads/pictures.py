@@ -12,9 +12,12 @@ from polynya.figures.page import Page, Sheet, set_log
 
 from . import estimate, rules, words
 
+# Colours that colour-blind readers can tell apart.
 BLACK, RED, BLUE, GREEN, PURPLE = "#000000", "#d55e00", "#0072b2", "#009e73", "#cc79a7"  # [Okabe2008]
-KINDS = (BLACK, RED, BLUE, GREEN, PURPLE, "#e69f00")  # colours of kinds of runs; further kinds are grey
-# Colour and marker of a peak by what ended its contact: `ended_by` of contacts.csv (docs/run-folder.md).
+# Colours of kinds of runs, the one with the largest peak first; further kinds are grey and share one legend entry.
+KINDS = (BLACK, RED, BLUE, GREEN, PURPLE, "#e69f00")
+# Colour and marker of a peak by what ended its contact: `ended_by` of contacts.csv (docs/run-folder.md). Peaks with
+# another value are not drawn. Later ones cover earlier ones.
 ENDS = {"bend": (BLUE, "o"), "split": (RED, "^"), "tilt": (GREEN, "s"), "slip": ("#888888", ".")}
 # Largest number of points of the plot of pressure over area. Of more peaks, those with the largest force are drawn, and
 # a note states the number of the others. More points: larger files, which take longer to draw.
@@ -22,9 +25,10 @@ MOST_POINTS = 5000
 BINS = 400  # number of time intervals of the raster of unrolled(); more: finer in time, but hard to see in print
 REFUTED = {"color": "#777777", "linestyle": ":"}  # line style of refuted fits
 # Largest force on the axis of exceedance(), as a multiple of the largest peak. An interval of a fit may reach much
-# farther; it then leaves the figure, so that the peaks remain legible.
+# farther; it then leaves the figure, so that the peaks remain legible. A larger value shows more of the fit and
+# compresses the peaks.
 WIDEST = 5
-HEIGHT = 70  # height of the panels of most figures on paper [mm]
+HEIGHT = 70  # height of the panels of most figures on paper [mm], for a page style of scale 1
 
 
 def curve_of(tail, lowest):
@@ -36,8 +40,8 @@ def curve_of(tail, lowest):
 
 
 def draw_fits(axes, found, lowest):
-    """Draws the fit in use with its interval, and refuted fits paler, down to the rate `lowest` [1/h]. Returns the
-    legend entries and the largest upper end of the interval [MN], 0 if no fit is in use."""
+    """Draws the fit in use with its interval, and all other fits, which are refuted, as grey dots, down to the rate
+    `lowest` [1/h]. Returns the legend entries and the largest upper end of the interval [MN], 0 if no fit is in use."""
     handles, reach = [], 0.0
     refuted = [fit for fit in found.fits if fit is not found.used]
     for fit in refuted:
@@ -67,7 +71,8 @@ def why_of(fits):
 
 
 def forces_of(fits):
-    """Returns the range of the thresholds of fits, which are in ascending order, in words."""
+    """Returns the range of the thresholds of fits, of which there is at least one, in ascending order, in words; a
+    single force if they are equal in words."""
     found = [words.force(fit.tail.threshold) for fit in fits]
     return " to ".join(dict.fromkeys((found[0], found[-1])))
 
@@ -86,7 +91,8 @@ def draw_kind(axes, loads, found, lowest):
 
 def draw_kinds(axes, estimates):
     """Draws the peaks of each kind of runs. The six kinds with the largest peaks have colours, the others are grey.
-    Returns the legend entries. `estimates` has (Loads, Estimate) by kind."""
+    Returns the legend entries. `estimates` has (Loads, Estimate) by kind. A kind with fewer than two peaks is not
+    drawn."""
     drawn = {kind: estimate.exceedance(of) for kind, (of, _) in estimates.items() if len(of.forces) > 1}
     largest = sorted(drawn, key=lambda kind: -drawn[kind]["force_N"][0])
     handles = []
@@ -104,8 +110,9 @@ def draw_kinds(axes, estimates):
 
 def exceedance(loads, estimates, page=Page()):
     """Draws the number of peaks per hour above each force. For a single kind of runs it has its confidence band and the
-    fitted tail, down to a tenth of the rate of one peak per record. Several kinds have one line each, without fits.
-    None for fewer than two peaks."""
+    fitted tail, down to a tenth of the rate of one peak per record. Several kinds have one line each, without fits. The
+    axis on the right counts peaks per kilometre; it is missing if the ship does not move. None for fewer than two peaks
+    in all, or without recorded time."""
     if len(loads.forces) < 2 or not loads.hours:
         return None
     with Sheet(page, "Peaks exceeded", words.of_loads(loads)) as sheet:
@@ -155,7 +162,7 @@ def draw_rules(axes, low, high):
 
 def pressure_area(loads, page=Page()):
     """Draws the nominal pressure of each peak over its area, with the rules for comparison. The axes hold every drawn
-    peak; the steep rule for tiny areas may leave them."""
+    peak; the steep rule for tiny areas may leave them. None for fewer than two peaks with an area and a pressure."""
     area, pressure = loads.peaks["width_m"] * loads.peaks["height_m"], loads.peaks["pressure_Pa"] / 1e6
     drawable = numpy.flatnonzero((area > 0) & (pressure > 0))
     order = drawable[numpy.argsort(loads.forces[drawable])[::-1][:MOST_POINTS]]
@@ -178,7 +185,8 @@ def pressure_area(loads, page=Page()):
 
 def along(loads, page=Page()):
     """Draws for each panel along the waterline the largest force, which is that of a peak or of a recorded panel, with
-    the mean force if panels were recorded, and the number of peaks per hour. None without loaded panels."""
+    the mean force over the whole time if panels were recorded, and the number of peaks per hour. None without loaded
+    panels."""
     rows = estimate.panels(loads)
     if not rows:
         return None
@@ -201,7 +209,8 @@ def along(loads, page=Page()):
 def unrolled(loads, page=Page()):
     """Draws the loads of the first case by place and time, as a raster of panels and BINS intervals of time. The
     waterline is unrolled from the stem, and each cell is coloured by its largest force, over three powers of ten. If no
-    panels were recorded, the forces are those of peaks alone. None if the first case has no loads."""
+    panels were recorded, the forces are those of peaks alone. Smaller forces than a thousandth of the largest have the
+    palest colour, cells without force none. None if the first case has no loads."""
     case = loads.cases[0]
     source = loads.panels if loads.panels else loads.peaks
     chosen = source["case"] == case.number
@@ -234,7 +243,7 @@ def unrolled(loads, page=Page()):
 
 def polar(loads, page=Page()):
     """Draws the largest force and the number of peaks per hour by the direction of each panel from the middle of the
-    waterline, counter-clockwise from ahead. None for a ship with propulsion."""
+    waterline, counter-clockwise from ahead. None for a ship with propulsion, or without loaded panels."""
     rows = estimate.panels(loads) if loads.is_fixed else []
     if not rows:
         return None
@@ -256,7 +265,8 @@ def polar(loads, page=Page()):
 
 
 def all_of(loads, estimates, page=Page()):
-    """Yields (name, description, figure or None) of each figure. The name is a part of the file's name."""
+    """Yields (name, description, figure or None) of each figure. The name is a part of the file's name, the description
+    the caption in loads.html. `estimates` has (Loads, Estimate) by kind of runs."""
     yield "exceedance", "Peaks exceeded per hour and per kilometre", exceedance(loads, estimates, page)
     yield "pressure-area", "Pressure over area, beside rules", pressure_area(loads, page)
     yield "along", "Panels along the waterline", along(loads, page)

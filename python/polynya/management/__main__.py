@@ -19,7 +19,7 @@ from .gates import Passage, distribution, gates_of, passages
 from .measures import effort, measures_of, rows_of
 from .options import command_line
 
-DONE = 0  # exit code; errors are exceptions, for which polynya.command chooses the code
+DONE = 0  # exit code, also with warnings; errors are exceptions, for which polynya.command chooses the code
 
 
 @dataclasses.dataclass
@@ -28,7 +28,7 @@ class Case:
 
     name: str  # the run's name in tables and figures
     run: Run
-    gates: object
+    gates: object  # gates.Gates
     before: Passage  # ice that passed the upstream gate
     after: Passage  # ice that passed the gate at the body
     measures: dict  # name -> value, or None (measures.measures_of)
@@ -41,7 +41,8 @@ class Case:
 
 
 def given_by(arguments):
-    """The options for the gates that are given, with the names of a study's collect.management."""
+    """The options for the gates that are given, with the names of a study's collect.management; empty if none is
+    given."""
     named = {"body": arguments.body, "upstream_m": arguments.upstream, "near_m": arguments.near,
              "width_m": arguments.width,
              "size_m": arguments.size, "from_s": arguments.start}
@@ -49,7 +50,8 @@ def given_by(arguments):
 
 
 def case_of(folder, name, given):
-    """Reads and measures the run in a folder."""
+    """Reads and measures the run in a folder, and returns a Case. Raises FolderError if the run cannot be read or is
+    not finished, and InputError if the gates do not fit it."""
     run = Run(folder, pandas=False)
     gates = gates_of(run, given)
     return Case(name, run, gates, *passages(run, gates), measures_of(run, given))
@@ -69,6 +71,7 @@ def shown(value):
     return "-" if value is None else f"{value:.4g}"
 
 
+# Prints the warnings of each case (cautions.of_measures) on stdout.
 def print_cautions(cases):
     for case in cases:
         for sentence in cautions.of_measures(case.measures, case.gates.body):
@@ -77,7 +80,7 @@ def print_cautions(cases):
 
 def print_cases(cases):
     """Prints warnings, a table with a row per measure and a column per run, the effort of the icebreakers, and the
-    gates."""
+    gates. The names of measures are shown without "management_"."""
     print_cautions(cases)
     names = list(cases[0].measures)
     width = max(map(len, names)) - len("management_")
@@ -99,7 +102,8 @@ def print_cases(cases):
 
 def write_tables(cases, folder):
     """Writes management.csv, with a row of measures per run, and management-sizes.csv, with the floes that passed each
-    gate by their size."""
+    gate by their size √area, in classes of which empty ones are left out. Both files replace earlier ones, and their
+    names are printed. A measure that is None is an empty cell."""
     with writing(folder / "management.csv", newline="") as file:
         writer = csv.writer(file)
         writer.writerow(["run", *cases[0].measures])
@@ -119,7 +123,8 @@ def write_tables(cases, folder):
 
 def draw(arguments, out, figures_of):
     """Writes the pictures that figures_of(page) yields as (name, figure) into the folder `out`, and prints their names.
-    A figure that is None is left out. Without matplotlib it prints a line that says so."""
+    A figure that is None is left out; its files of an earlier call stay. Without matplotlib it prints a line that says
+    so on stderr, which is no error."""
     try:
         from ..figures.page import STYLES, Page, save
     except ImportError as error:
@@ -133,7 +138,8 @@ def draw(arguments, out, figures_of):
 
 
 def report_study(arguments, out):
-    """Gathers the study, then prints and writes the results of `polynya management STUDY`."""
+    """Gathers the study, then prints and writes the results of `polynya management STUDY`. With --json it only prints.
+    Returns DONE even if cases are missing; the results then rest on the finished ones."""
     with contextlib.redirect_stdout(sys.stderr):  # stdout is for the results only
         gather(folders.open_study(arguments.folders[0]))
     found = study.read(arguments.folders[0])
@@ -157,7 +163,8 @@ def report_study(arguments, out):
 
 
 def report_runs(arguments, out):
-    """Prints and writes the results of `polynya management RUN …`."""
+    """Prints and writes the results of `polynya management RUN …`. With --json it only prints {name: measures}. Returns
+    DONE."""
     given, names = given_by(arguments), labels_of(arguments)
     cases = [case_of(folder, name, given) for folder, name in zip(arguments.folders, names)]
     if arguments.json:
@@ -178,7 +185,8 @@ def report_runs(arguments, out):
 
 def main():
     """Runs the command. A folder with plan.json is a study; a study must be the only folder and takes no gates, because
-    its cases were measured with those of its collect.management."""
+    its cases were measured with those of its collect.management. Raises InputError with code 2 otherwise. Tables and
+    figures go to --out, by default the first folder."""
     arguments = command_line().parse_args()
     out = pathlib.Path(arguments.out or arguments.folders[0])
     studies = [folder for folder in arguments.folders if (pathlib.Path(folder) / folders.PLAN).is_file()]

@@ -12,7 +12,8 @@ from typing import Optional
 
 from ..readable import force
 
-#: Intervals over fewer fields of ice than this get a warning, because so few values barely show the scatter.
+#: Intervals over fewer fields of ice than this get a warning, because so few values barely show the scatter. A larger
+#: number warns more studies; results do not change.
 LEAST_FIELDS = 5
 MOST_LISTED = 4  #: largest number of conditions that a sentence lists; it gives only the number of the others
 PREFIX = "management_"  # of the names of measures in the tables of studies
@@ -35,7 +36,8 @@ def values_of(condition, measure, pattern):
 
 
 def hits_of(condition, pattern) -> Optional[Hits]:
-    """Contacts of the body with ships under a pattern; None if they were not measured."""
+    """Contacts of the body with ships under a pattern, as Hits; None if they were not measured. If loads were not
+    measured, `load` is 0; if distances were not, `closest` is infinite."""
     hits = values_of(condition, "ship_hits", pattern).values()
     if not hits:
         return None
@@ -46,21 +48,21 @@ def hits_of(condition, pattern) -> Optional[Hits]:
 
 def has_arrived(condition):
     """Returns False if it is known that no ice arrived at the body in any field of any pattern. Returns True if neither
-    of ARRIVALS was measured."""
+    of ARRIVALS was measured. A condition without ice is not ranked (management.study)."""
     known = [values for name in ARRIVALS for values in condition.values.get(PREFIX + name, {}).values()]
     return not known or any(value > 0 for values in known for value in values.values())
 
 
 def without_ice(condition, pattern):
-    """Number of fields of a pattern in which no ice passed the upstream gate and none arrived at the body, and the
-    number of all of its fields."""
+    """Returns the number of fields of a pattern in which no ice passed the upstream gate and none arrived at the body,
+    and the number of its fields in which all three measures are known."""
     of = [values_of(condition, name, pattern) for name in ("floes_upstream", *ARRIVALS)]
     fields = [field for field in of[0] if all(field in values for values in of)]
     return sum(all(values[field] == 0 for values in of) for field in fields), len(fields)
 
 
 def counted(condition, number, fields):
-    """"1 of 6 fields", with the condition if the study has several."""
+    """"1 of 6 fields", with the name of the condition if it has one, as in a study with several."""
     return f"{number} of {fields} fields" + (f" ({condition.name})" if condition.name else "")
 
 
@@ -86,7 +88,8 @@ def contacts(found):
 
 
 def not_measured(found):
-    """A sentence for results of an earlier version, which did not measure contacts of ships."""
+    """A list with a sentence for results of an earlier version, which did not measure contacts of ships; empty if any
+    contacts were measured, or if no ship managed ice."""
     known = any(hits_of(condition, pattern) for condition in found.conditions for pattern in found.patterns)
     has_ships = any(value for condition in found.conditions for pattern in found.patterns
                     for value in values_of(condition, "icebreakers", pattern).values())
@@ -97,7 +100,8 @@ def not_measured(found):
 
 
 def no_ice(found):
-    """Sentences on conditions and patterns for which no ice was measured."""
+    """Sentences on conditions in which no ice arrived in any pattern, and then on patterns with single fields without
+    ice in the other conditions."""
     empty = [condition for condition in found.conditions if not has_arrived(condition)]
     lines = []
     if empty:
@@ -139,7 +143,8 @@ def beyond_gate(found):
 
 
 def few_fields(found):
-    """A sentence if a pattern has fewer than LEAST_FIELDS fields of ice by any measure in any condition."""
+    """A list with a sentence if a pattern has fewer than LEAST_FIELDS fields of ice by any measure in any condition. It
+    states the smallest number."""
     counts = [len(values) for condition in found.conditions for of in condition.values.values()
               for values in of.values()]
     if not counts or min(counts) >= LEAST_FIELDS:
@@ -157,7 +162,7 @@ def of_study(found):
 
 def of_measures(measures, body):
     """Yields the sentences on a single run from its measures by name (measures.measures_of). `body` is the name of the
-    protected body."""
+    protected body. A measure that is missing or None counts as 0."""
     of = lambda name: measures.get(PREFIX + name) or 0
     if of("ship_hits"):
         yield (f"a ship hit {body} {of('ship_hits')} time{'s' if of('ship_hits') > 1 else ''}, with up to "

@@ -25,13 +25,14 @@ class Outlines:
         return self._reach[ids]
 
     def of(self, ids):
-        """{id: rings} of floes."""
+        """{id: rings} of the floes with these ids, in their body frames [m]."""
         return self._run.shapes.of(ids)
 
 
 def crossings(rings, line):
-    """Sorted positions y [m] at which the rings of one floe cross the line x = `line`. The ice lies between the first
-    and the second one, between the third and the fourth one, and so on; holes are left out by this."""
+    """Sorted positions y [m] at which the rings of one floe, given in the coordinates of the gates (x upstream, y
+    across), cross the line x = `line` [m]. Their number is even, and 0 if no ring crosses it. The ice lies between the
+    first and the second one, between the third and the fourth one, and so on; holes are left out by this."""
     found = []
     for ring in rings:
         (x, y), following = ring.T, numpy.roll(ring, -1, axis=0)
@@ -42,8 +43,8 @@ def crossings(rings, line):
 
 
 def covered(stretches, half):
-    """Length of the union of stretches (low, high) within −half to half [m]. Ice counts once where stretches
-    overlap."""
+    """Length of the union of stretches (low, high), in any order, within −half to half [m]. Ice counts once where
+    stretches overlap."""
     total, reached = 0.0, -half
     for low, high in sorted(stretches):
         low, high = max(low, reached), min(high, half)
@@ -55,7 +56,8 @@ def covered(stretches, half):
 
 def covers_at(frame, outlines, axis, origin, gates):
     """Fractions of the length of the upstream gate and of the gate at the body that lie under floating ice in a frame
-    of the run. `axis` is the unit vector upstream and `origin` the position of the body in the world [m]."""
+    of the run, as a list of two, from 0 to 1. `axis` is the unit vector upstream and `origin` the position of the body
+    in the world [m]. Ice under a hull does not count."""
     ids, poses = frame.ids[~frame.is_under], frame.poses[~frame.is_under]
     along, reach = (poses[:, :2] - origin) @ axis, outlines.reach_of(ids)
     across = numpy.array([-axis[1], axis[0]])
@@ -72,10 +74,10 @@ def covers_at(frame, outlines, axis, origin, gates):
 
 
 def covers(run, gates):
-    """Cover at the upstream gate and at the gate at the body: the mean fraction of the gate's length that lies under
-    ice, from the first frame with ice on the gate to the last one, with each frame weighted by the distance that the
-    ice drifts until the next. It lies between 0 and 1, because ice is counted once where floes overlap. None if no ice
-    lay on the gate, or if the water rests."""
+    """Returns a list of the cover at the upstream gate and at the gate at the body [-]: the mean fraction of the gate's
+    length that lies under ice, from the first frame with ice on the gate to the last one, with each frame weighted by
+    the distance that the ice drifts until the next. It lies between 0 and 1, because ice is counted once where floes
+    overlap. Frames up to gates.start do not count. None for a gate if no ice lay on it, or if the water rests."""
     upstream, ways = axes_over_time(run)
     number, outlines = run.ship_names.index(gates.body), Outlines(run)
     rows = numpy.zeros((len(run.times), 2))

@@ -18,12 +18,14 @@ OF_THE_START = ("pilot", "sway_speed_m_per_s", "yaw_rate_deg_per_s")
 # pieces do not surface again, because that would be behind the stern, where they do not load the ship.
 ENDLESS = {"splitting": {"model": "none"}, "resurface": {"enabled": False}}
 # Standard deviation of the flexural strength between bending events, divided by its mean [-]. Measured beams at one
-# place scatter as much (recall). Without scatter, cusps of thick ice form regular patterns that can stop a ship.
+# place scatter as much (recall). Without scatter, cusps of thick ice form regular patterns that can stop a ship. A
+# larger value makes forces and speeds scatter more, so that runs must be longer.
 STRENGTH_SPREAD = 0.2
 
 
 def ice_keys(ice):
-    """Returns the member `ice` of a scene for a formulas.Ice. The density of the water is left to its default."""
+    """Returns the member `ice` of a scene, by key, for a formulas.Ice, both in SI units. The density of the water is
+    left to its default."""
     return {
         "thickness_m": ice.thickness,
         "flexural_strength_Pa": ice.flexural_strength,
@@ -37,7 +39,8 @@ def ice_keys(ice):
 def scene(ship, ice, speed, lengths, step):
     """Returns the scene of a run, as a dict. The ship starts at `speed` [m/s] with its stem 2 m in front of a plate of
     fast ice, which is `lengths` + 1 ship lengths long and 5 beams wide. The run lasts as long as the ship would need
-    for the plate at that speed. `ship` is a ship as in a scene, `ice` a formulas.Ice and `step` the time step [s]."""
+    for the plate at that speed, so a ship that slows down does not reach its end. `ship` is a ship as in a scene, `ice`
+    a formulas.Ice and `step` the time step [s]. A longer plate makes the mean speed more certain and the run longer."""
     hull = ship["hull"]
     length, width = hull["length_m"], 5 * hull["beam_m"]
     way = (lengths + 1) * length
@@ -58,19 +61,19 @@ def scene(ship, ice, speed, lengths, step):
 
 
 class Measured:
-    """The mean motion of a run of scene(), read from forces.csv. `way` is the length of the plate [m].
+    """The mean motion of a run of scene(), read from forces.csv in `folder`. `way` is the length of the plate [m].
 
     Only rows count in which the ship has sailed at least 2.2 ship lengths, so that the whole hull is in the ice, and in
     which its stem is at least 0.1 ship lengths before the end of the plate. Members:
 
-    speed, error: mean speed over ground and its standard error [m/s], both 0 for a stuck ship.
-    contact, submerged: mean braking force by contacts with ice, and by ice under the hull [N].
+    speed, error: mean speed over ground and its standard error [m/s], both 0 for a stuck ship or too few rows.
+    contact, submerged: mean braking force by contacts with ice, and by ice under the hull [N]; positive if it brakes.
     way: distance that the ship has sailed, up to 0.1 ship lengths before the end of the plate [m].
-    is_stuck: true if the mean speed in the last quarter of the run was below 0.05 m/s. The forces are then the means
-    over that quarter.
-    is_steady: false if too few rows count for a mean speed, which is then 0.
-    drift: change of the mean speed from the first to the second half of the distance, divided by the mean speed; only
-    for a ship that has a mean speed."""
+    is_stuck: true if the mean speed in the last quarter of the time was below 0.05 m/s.
+    is_steady: false if fewer than 4 BLOCKS rows count, too few for a mean speed. Then, and if the ship is stuck, the
+    forces are the means over the last quarter of the time.
+    drift: magnitude of the change of the mean speed from the first to the second half of the distance, divided by the
+    mean speed [-]; missing for a ship without a mean speed."""
 
     def __init__(self, folder, ship, way=math.inf):
         length = ship["hull"]["length_m"]
@@ -104,7 +107,8 @@ class Measured:
     def is_within(self, share):
         """Returns True if the speed is steady enough, so that the run need not be repeated on a longer course. The
         standard error must be at most the fraction `share` of the mean speed, and half of the change between the two
-        halves of the distance at most `share` of it plus one standard error. A stuck ship is steady."""
+        halves of the distance at most `share` of it plus one standard error. A stuck ship is steady, and one with too
+        few rows is not. A smaller `share` makes more runs be repeated."""
         if self.is_stuck:
             return True
         return (

@@ -8,28 +8,32 @@ from ..ice_class import KNOT, SPEED, SUPER, THICKNESS
 
 WIDTHS = (8, 11, 10, 8, 7, 9, 9, 13, 20)  # widths of the printed table's columns after the class [characters]
 # Diameter of a propeller divided by the ship's draught [-], for a ship that does not state the diameter (a typical
-# value from memory). The minimum power is inversely proportional to it.
+# value from memory). The minimum power is inversely proportional to it: a larger value makes the required power
+# smaller.
 DIAMETER_OVER_DRAUGHT = 0.65
 
 
 def propellers_of(ship):
-    """Returns the number of a ship's propellers, at most 3, because the rules have no factor for more, and their
-    diameter [m], which is estimated from the draught if the ship does not state it."""
+    """Returns the number of a ship's propellers and the diameter of one [m]. `ship` is a ship as in a scene. The number
+    is 1 if the ship does not state it, and at most 3, because the rules have no factor for more. The diameter is
+    estimated from the draught if the ship does not state it."""
     engine = ship.get("propulsion", {}).get("engine", {})
     diameter = engine.get("propeller_diameter_m") or DIAMETER_OVER_DRAUGHT * ship["hull"]["draught_m"]
     return min(engine.get("propellers", 1), 3), diameter
 
 
 def computed_at(points, thickness):
-    """Returns the computed points whose speed is 5 knots, within 1 %, and whose brash has that thickness [m]. There may
-    be several, with different covers and piece sizes. The tolerance admits the default speed of 2.572 m/s."""
+    """Returns the computed points whose speed is 5 knots, within 1 %, and whose brash has that thickness [m]. Points
+    are rows of the table of resistances (coefficients.py). There may be several, with different covers and piece sizes,
+    or none. The tolerance admits the default speed of 2.572 m/s; a wider one would compare other speeds with the
+    rule."""
     return [point for point in points if abs(point["speed_m_per_s"] - SPEED) < 0.01 * SPEED
             and math.isclose(point["thickness_m"], thickness)]
 
 
 def powers(resistance, ship):
     """Returns the minimum power [W] that the rules require for a resistance [N] with the propellers of the ship, for
-    fixed and for controllable pitch, by the name of a column."""
+    fixed and for controllable pitch, by the name of a column. The least power of the classes is not applied."""
     number, diameter = propellers_of(ship)
     return {f"power_{pitch}_pitch_W": ice_class.minimum_power(resistance, diameter, number, pitch)
             for pitch in ice_class.FACTORS}
@@ -37,8 +41,8 @@ def powers(resistance, ship):
 
 def row_of(ship, name, thickness, point):
     """Returns a row of ice-class.csv for an ice class with brash of that thickness [m]: the rule's resistance, its
-    terms and the power that it requires, and resistance and power of a computed point. Without a point (None) the cells
-    of the point are empty texts."""
+    terms and the power that it requires, and resistance and power of a computed point. A negative computed resistance
+    requires no power. Without a point (None) the cells of the point are empty texts."""
     rule = ice_class.channel_resistance(hull_of(ship), thickness, is_frozen=name == SUPER)
     row = {"class": name, "thickness_m": thickness, "cover": "", "piece_size_m": "", "computed_N": "",
            "computed_error_N": "", "rule_N": rule.total, "rule_bow_N": rule.bow, "rule_midbody_N": rule.midbody,
@@ -63,14 +67,14 @@ def rows(ship, points):
 
 
 def shown(value, scale, digits):
-    """Returns a cell of the printed table: the value times `scale`, or a dash if it is empty or NaN, as the error of a
-    single field is."""
+    """Returns a cell of the printed table: the value times `scale` with `digits` decimals, or a dash if it is empty or
+    NaN, as the error of a single field is."""
     return "-" if value == "" or math.isnan(value) else f"{value * scale:.{digits}f}"
 
 
 def print_table(found, ship):
-    """Prints resistance and minimum power by class, and below them the propellers, the speed and the source on which
-    the numbers are based."""
+    """Prints resistance and minimum power by class from rows of rows(), and below them the propellers, the speed and
+    the source on which the numbers are based. P for the computed resistance is shown for fixed pitch only."""
     print()
     for heads in (("class", "H_M", "R_ch", "± fields", "rule", "bow", "midbody", "P", "rule, fixed",
                    "rule, controllable"),

@@ -21,7 +21,9 @@ class Channel:
     """The channel behind a ship at one time."""
 
     stations: Any  #: table with a row for each station along the track, with the columns of channel.csv
-    sums: dict  #: mean width, areas and so on, as in `polynya channel --json`, without the lists of floes and brash
+    #: Mean width [m], areas [m²] and so on, as in `polynya channel --json`, without the lists of floes and brash. The
+    #: names end in their units.
+    sums: dict
     #: Areas of channel.geojson by name: "open water", "channel", "swept band", and "brash" if there is any. Lines, such
     #: as the track, are left out. Each area is a list of polygons, and each polygon a list of rings: the outer one,
     #: then its holes. A ring is an array of n × 2 in the world [m], not closed.
@@ -31,7 +33,8 @@ class Channel:
 def measure(folder, ship, time, pandas):
     """Measures the channel of a run with `polynya channel`, without writing to the run folder. `ship` is the name of a
     ship, and `time` a time of the run [s]; None means the first ship and the end of the run. `pandas` is as in
-    tables.table(). Raises FolderError, with the program's message, if the channel cannot be measured."""
+    tables.table(). Returns a Channel. Raises FolderError, with the program's message, if the channel cannot be
+    measured, for example if the run has no such ship, or if the program cannot be started."""
     with tempfile.TemporaryDirectory() as scratch:
         words = [program(), "channel", os.fspath(folder), "--out", scratch]
         words += ([] if time is None else ["--at", repr(float(time))]) + ([] if ship is None else ["--ship", ship])
@@ -53,8 +56,8 @@ def measure(folder, ship, time, pandas):
     return Channel(table(columns, pandas), {key: value for key, value in sums.items() if key != "part"}, parts)
 
 
-# Returns the polygons of a GeoJSON geometry as lists of rings, without the last point of each ring, which repeats the
-# first one.
+# Returns the polygons of a GeoJSON geometry, a Polygon or MultiPolygon, as lists of rings, without the last point of
+# each ring, which repeats the first one. An empty geometry gives no polygons.
 def polygons_of(geometry):
     polygons = geometry["coordinates"] if geometry["type"] == "MultiPolygon" else [geometry["coordinates"]]
     return [[numpy.array(ring[:-1], dtype=float) for ring in polygon] for polygon in polygons]

@@ -23,15 +23,19 @@ DONE, FAILED, INPUT_OUTPUT, STOPPED = 0, 4, 5, 75  # exit codes of app/command_l
 # crash has ended and still has this value, the machine is the cause, for example a lack of memory, and another try may
 # succeed (docs/run-folder.md). It must be equal to the text in io/run/run_writer.cpp.
 KILLED = "still running, or killed"
-# Signals that mean an error of the program, which would occur again. Other signals come from the machine.
+# Signals that mean an error of the program, which would occur again, so that the case counts as failed. Other signals
+# come from the machine or a user, and the case is continued by the next call.
 CRASHES = (signal.SIGABRT, signal.SIGSEGV, signal.SIGBUS, signal.SIGFPE, signal.SIGILL)
-KEPT_WORDS = 2000  # a failed run's messages are kept up to this length, their end [characters]
+# Largest length of the messages of a failed run that are kept [characters]; of longer ones the end is kept, because it
+# says why the run ended. It limits the size of the results of a study in which all cases fail.
+KEPT_WORDS = 2000
 PR_SET_PDEATHSIG = 1  # first argument of prctl() in die_with_parent(), from <linux/prctl.h>
-LIBC = ctypes.CDLL(None)
+LIBC = ctypes.CDLL(None)  # the C library, found once before a child needs it
 
 
 def die_with_parent(number):
-    """Asks the kernel to send this process the signal `number` when its parent ends for any reason, even SIGKILL."""
+    """Asks the kernel to send this process the signal `number` when its parent ends for any reason, even SIGKILL. Call
+    it in the child. A failure is ignored."""
     LIBC.prctl(PR_SET_PDEATHSIG, number)
 
 
@@ -48,7 +52,8 @@ def state_of(folder):
 
 
 def is_result(result):
-    """Returns True if a value that was read from JSON has the members that the result of a case needs."""
+    """Returns True if a value that was read from JSON has the members that the result of a case needs: a known state,
+    and measures or a message."""
     if not isinstance(result, dict):
         return False
     kinds = {"finished": {"measures": dict}, "failed": {"message": str}}.get(result.get("state"))
@@ -56,10 +61,11 @@ def is_result(result):
 
 
 def run_case(study, number, stop=None, keep=None):
-    """Runs a case to its end and returns (exit code, message); the message is empty if there is nothing to say. When
-    the file descriptor `stop` becomes readable, the run is stopped with a checkpoint. `keep`, "all" or "summary",
-    replaces the study's own setting. A finished case returns at once, unless its run folder was removed and `keep` is
-    "all": then it runs again. A case that another process runs at the same time is refused."""
+    """Runs a case to its end and returns (exit code, message); the message is empty if there is nothing to say. A case
+    that failed before runs again; jobs.run_cases() skips those. When the file descriptor `stop` becomes readable, the
+    run is stopped with a checkpoint. `keep`, "all" or "summary", replaces the study's own setting. A finished case
+    returns at once, unless its run folder was removed and `keep` is "all": then it runs again. A case that another
+    process runs at the same time is refused with INPUT_OUTPUT. Raises OSError if the folder cannot be used."""
     if stop is not None and select.select([stop], [], [], 0)[0]:
         return STOPPED, ""
     folder = study.case_folder(number)
@@ -81,7 +87,8 @@ def run_case(study, number, stop=None, keep=None):
 
 def carry(study, number, folder, lock, stop, keep):
     """Runs or resumes the case, then measures it and writes the result (case.json). Returns (exit code, message). A run
-    that was stopped or killed leaves no result, so that the next call resumes it. `lock` is the file descriptor of the
+    that was stopped or killed leaves no result, so that the next call resumes it; both give STOPPED. An earlier result
+    is removed first. With `keep` "summary" the run folder is removed at the end. `lock` is the file descriptor of the
     case's folder, which is locked."""
     run, began = folder / RUN, time.monotonic()
     (folder / RESULT).unlink(missing_ok=True)
@@ -120,9 +127,10 @@ def case_in_words(study, number):
 
 
 def failed(study, number, folder, code, words):
-    """Returns (exit code, message) of a failure. One that would occur again is recorded as the case's result, and
-    jobs.run_cases() then runs the case again only with --retry-failed. A failure of the machine, such as a full disk or
-    a lack of memory, is not recorded, so that the case stays unfinished."""
+    """Returns (exit code, message) of a failure, given by its exit code and the program's messages `words`. One that
+    would occur again is recorded as the case's result, and jobs.run_cases() then runs the case again only with
+    --retry-failed. A failure of the machine, such as a full disk or a lack of memory, is not recorded, so that the case
+    stays unfinished."""
     words = words.strip()[-KEPT_WORDS:] or without_words(folder, code)
     is_killed = code > 0 and summary_of(folder / RUN).get("stopped_by") == KILLED
     if code == INPUT_OUTPUT or is_killed:
@@ -133,14 +141,16 @@ def failed(study, number, folder, code, words):
 
 
 def without_words(folder, code):
-    """Describes a run that left no message. A full disk also prevents the run from writing its message."""
+    """Describes a run that left no message by its exit code, and by the full disk if there is one: it also prevents the
+    run from writing its message."""
     is_full = os.statvfs(folder).f_bavail == 0
     return f"exit code {code}" + (f"; {folder}: {os.strerror(errno.ENOSPC)}" if is_full else "")
 
 
 def gist(words):
     """Returns the line of a program's messages that says why it ended: its first message with "polynya: ", without that
-    prefix, otherwise the first line, which is the first problem of a scene."""
+    prefix, otherwise the first line, which is the first problem of a scene. Messages that nothing was written do not
+    count. `words` must not be empty."""
     lines = words.splitlines()
     stops = [line for line in lines if line.startswith("polynya: ") and "nothing was written" not in line]
     return (stops or lines)[0].removeprefix("polynya: ")
@@ -174,7 +184,9 @@ def command_of(study, number, run):
 def run_program(words, lock, stop):
     """Runs a program until it ends, or until `stop` becomes readable: then the program is asked to stop. Returns its
     exit code, which is minus the signal that ended it, and its output on stderr. The program inherits the case's lock,
-    so that nobody else runs the case as long as it runs. It stops with a checkpoint if this process is killed."""
+    so that nobody else runs the case as long as it runs. It stops with a checkpoint if this process is killed. Its
+    messages go to messages.txt in the folder of the case, which is removed at the end. Raises OSError if the program
+    cannot be started."""
 
     def in_child():
         die_with_parent(signal.SIGHUP)

@@ -7,13 +7,17 @@ from .folder import RUN
 from .measures import rows_by_ship
 from .pictures import group_label, save
 
-COLUMNS, SMALL = 4, 6  # largest number of panels beside each other; font size of their titles [pt]
+# Largest number of panels beside each other, and font size of their titles [pt]. More columns make smaller panels, and
+# a larger font breaks the titles into more lines.
+COLUMNS, SMALL = 4, 6
 
 
 def choose(study, sample, group_by, count):
     """Selects cases for the picture and returns their numbers: the same number from each group, evenly spaced, and at
     most `count` in total. Only cases whose run folder is kept are selected. `group_by` is the path of a parameter, or
-    None for a single group. If there are more groups than `count`, the last groups have no case."""
+    None for a single group. A group with fewer kept cases than its share gives all of them, and no other group gives
+    more instead. If there are more groups than `count`, the last groups have no case. The list may be empty; then there
+    is no picture."""
     groups = sample.groups(group_by)
     each, chosen = max(1, count // len(groups)), []
     for _, cases in groups if count > 0 else []:
@@ -28,8 +32,10 @@ def is_kept(study, number):
 
 
 def draw(study, sample, numbers, group_by, folder):
-    """Draws the end of each case of `numbers` in a panel and saves the picture in `folder`. All panels have the same
-    scale and range of x and y [m], which contains all ice and tracks. Returns the name of the SVG."""
+    """Draws the end of each case of `numbers`, of which there must be at least one, in a panel, and saves the picture
+    in `folder` as channels.svg and channels.png, which replace earlier ones. All panels have the same scale and range
+    of x and y [m], which contains all ice and tracks, and are at most 60 mm high without their titles. Returns the name
+    of the SVG. Raises FolderError if a run is damaged."""
     ends = [read_end(study.case_folder(number) / RUN) for number in numbers]
     columns = min(COLUMNS, len(numbers))
     rows = -(-len(numbers) // columns)
@@ -56,7 +62,8 @@ def draw(study, sample, numbers, group_by, folder):
 
 def read_end(folder):
     """Reads the end of a run: outlines of the floating floes, and for each ship with rows in forces.csv its track over
-    the whole run and its waterline, all in the world [m]. Holes of floes are left out."""
+    the whole run and its waterline, all in the world [m]. The end of an unfinished run is its last frame. Holes of
+    floes are left out. Raises FolderError if the folder cannot be read."""
     run = Run(folder, unfinished=True, pandas=False, shapely=False)
     frame, rows = run.frame(run.end_time), rows_by_ship(run.folder / "forces.csv")
     names = [ship["name"] for ship in run.scene["ships"]]
@@ -66,7 +73,7 @@ def read_end(folder):
     return {"rings": [rings[0] for rings in floating], "ships": ships}
 
 
-# Draws what read_end() returns.
+# Draws what read_end() returns: floes, tracks as lines, and waterlines filled in the colour of the tracks.
 def draw_end(axes, end):
     axes.add_collection(PolyCollection(end["rings"], facecolors="#cfe3ef", edgecolors="#5b7f95", linewidths=0.15))
     for ship in end["ships"]:

@@ -3,8 +3,8 @@ distribution at a uniform number. The uniform numbers depend only on the seed of
 parameter's path and the number of the draw. So further parameters do not change the draws of the others, and more draws
 begin with the same values, except with a Latin hypercube.
 
-`kind` is a key of KINDS, and `given` the numbers of the distribution by name, with `least` and `most` if it is cut
-off."""
+`kind` is a key of KINDS, and `given` the numbers of the distribution by name, in the unit of the parameter, with
+`least` and `most` if it is cut off. Except in fault_of() they must be valid."""
 import math
 import random
 import statistics
@@ -12,7 +12,9 @@ import statistics
 from .located_json import shown
 
 STANDARD = statistics.NormalDist()  # mean 0, standard deviation 1
-KINDS = {  # numbers that each distribution needs, besides the optional ones of BOUNDS
+# Numbers that each distribution needs, besides the optional ones of BOUNDS. "low" and "high" are its ends, "sd" is its
+# standard deviation.
+KINDS = {
     "uniform": ("low", "high"),
     "log_uniform": ("low", "high"),
     "normal": ("mean", "sd"),
@@ -20,14 +22,14 @@ KINDS = {  # numbers that each distribution needs, besides the optional ones of 
 }
 BOUNDS = ("least", "most")  # numbers that cut a distribution off; the rest keeps its shape and has the probability 1
 # Distance of the probabilities from 0 and 1 at which normal and log-normal distributions are cut off [-], because their
-# inverse is infinite there. A draw is then at most some 8.2 standard deviations from the mean.
+# inverse is infinite there. A draw is then at most some 8.2 standard deviations from the mean (of the logarithm). A
+# much smaller value would be lost when it is subtracted from 1.
 LEAST_P = 1e-16
 
 
 def fault_of(kind, given):
     """Returns a message that says what is wrong with the numbers of a distribution, or None. Bounds must leave at least
-    1e-9 of the distribution, because
-    numbers resolve a smaller part too coarsely."""
+    1e-9 of the distribution, because doubles resolve a smaller part too coarsely. Only the first fault is named."""
     for name in KINDS[kind]:
         if not is_number(given.get(name)):
             found = shown(given[name]) if name in given else "nothing"
@@ -74,7 +76,7 @@ def log_parameters(given):
 
 def value_at(kind, given, p):
     """The value below which the fraction p of the distribution lies, without its bounds: the inverse of
-    probability_below."""
+    probability_below. `p` is from 0 to 1. May raise ArithmeticError for numbers that fault_of() refuses."""
     if kind == "uniform":
         return given["low"] + p * (given["high"] - given["low"])
     if kind == "log_uniform":
@@ -104,7 +106,8 @@ def probability_below(kind, given, value):
 
 def uniform_numbers(seed, path, count, method):
     """`count` numbers in [0, 1) for one parameter. The method "independent" draws each alone; "latin_hypercube" draws
-    one from each of `count` equal parts, in random order, so that they cover the interval evenly."""
+    one from each of `count` equal parts, in random order, so that they cover the interval evenly. A larger count then
+    changes all numbers."""
     dice = random.Random(f"{seed} {path}")
     if method == "independent":
         return [dice.random() for _ in range(count)]
@@ -114,7 +117,8 @@ def uniform_numbers(seed, path, count, method):
 
 
 def draw(seed, path, kind, given, count, method):
-    """`count` values of the parameter `path`, in the order of the draws. The distribution must be valid (fault_of)."""
+    """Returns a list of `count` values of the parameter `path`, in the order of the draws. The distribution must be
+    valid (fault_of). No value is outside the bounds."""
     low = probability_below(kind, given, given.get("least", -math.inf))
     high = probability_below(kind, given, given.get("most", math.inf))
     least, most = given.get("least", -math.inf), given.get("most", math.inf)

@@ -12,9 +12,10 @@ from .definition import read_definition
 
 
 def folder_of(options, definition):
-    """Returns the folder for the cases: `options.folder`, or a folder below studies/ named by a hash of the texts of
-    the study and of the design. With the same texts finished cases are reused; other texts have another folder. The
-    scenes are not part of the hash: if one was changed after cases had ended, planning refuses the folder."""
+    """Returns the folder for the cases as a Path: `options.folder`, or a folder below studies/ of the current folder,
+    named by a hash of the texts of the study and of the design. With the same texts finished cases are reused; other
+    texts have another folder. The scenes are not part of the hash: if one was changed after cases had ended, planning
+    refuses the folder. Raises FolderError if a file cannot be read."""
     if options.folder:
         return pathlib.Path(options.folder)
     digest = hashlib.sha256((read_text(options.study) + "\0" + read_text(options.design)).encode()).hexdigest()
@@ -22,9 +23,11 @@ def folder_of(options, definition):
 
 
 def evaluate(options):
-    """Plans, runs and gathers a design, and copies the table to the file `options.measures`. A case that has failed
-    before is not run again. Returns the exit code of gather, DONE only if every case is finished, or INPUT_OUTPUT if
-    a worker process was killed. The table is written in any case; rows of other cases have no measures."""
+    """Plans, runs and gathers a design, and copies the table to the file `options.measures`, which is replaced. There
+    is no trial, and at most as many cases as `polynya study plan` allows by default. A case that has failed before is
+    not run again. Returns the exit code of gather, DONE only if every case is finished, or INPUT_OUTPUT if a worker
+    process was killed. The table is written in all these cases; rows of cases that are not finished have no measures.
+    Raises StudyError, and writes no table, if the study cannot be planned."""
     folder = folder_of(options, read_definition(options.study, options.design))
     planning = argparse.Namespace(out=folder, chunk=None, repetitions=None, most=10_000_000, trial_seconds=0,
                                   check_seeds=False, jobs=options.jobs, design=options.design)

@@ -2,7 +2,10 @@
 docs/studies.md explains the file, and folder.py lists the files of the folder.
 
 In this module `lines` are the lines of cases.ndjson, one per case, `old` is the plan that the folder has already, or
-None, and `new` the plan that is to be written."""
+None, and `new` the plan that is to be written. Of the options, `design` is the design's file or None, `repetitions` and
+`chunk` replace the values of the study unless they are None, `out` is the folder or None, `most` the largest number of
+cases, `trial_seconds` the duration of the trial [s] (0: none), `jobs` the number of cases at a time for its estimate,
+and with `check_seeds` every case is checked fully."""
 import concurrent.futures
 import hashlib
 import itertools
@@ -25,14 +28,15 @@ from .folder import CASES, FORMAT, INDEX, PLAN, Study, list_of_numbers, read_pla
 from .located_json import Problem, StudyError, read_json
 
 # Largest number of chunks for which a chunk's size is chosen, because each chunk is one task of a job array. Slurm
-# allows MaxArraySize − 1 tasks, by default 1000.
+# allows MaxArraySize − 1 tasks, by default 1000. A larger number gives job arrays that Slurm may refuse.
 MOST_TASKS = 1000
 MOST_SHOWN = 20  # number of different problems of cases that are printed; the others are counted
 
 
 def plan_study(file, options):
     """Plans the study in `file`, or finds that it is planned already. `options` are those of `polynya study plan`.
-    Returns the Study. If it raises StudyError, no plan was written, and a folder that was not there is not there."""
+    Returns the Study. If it raises StudyError, no plan was written, and a folder that was not there is not there. The
+    code of the error is 2 for options that do not fit, 3 for a wrong study, and 5 for a folder that cannot be used."""
     if pathlib.Path(file).is_dir():
         raise StudyError(f"{file}: a folder; plan takes the study's JSON file", 2)
     definition = read_definition(file, options.design)
@@ -62,7 +66,8 @@ def plan_study(file, options):
 
 def write_study(definition, folder, draft, lines, old, expanded, options):
     """Checks the cases, writes the folder and makes the trial; does nothing if the same plan is there. Scenes are
-    copied to the folder `draft` first, so that a refused plan replaces nothing."""
+    copied to the folder `draft` first, so that a refused plan replaces nothing. `expanded` is the time that expanding
+    took [s], for the message on stderr. Returns the Study. Raises StudyError if a case is wrong or has ended."""
     count, text = len(lines), "".join(lines)
     scenes = copy_scenes(definition, draft, lines)
     new = {
@@ -109,8 +114,8 @@ def plan_in(folder):
 
 
 def is_same(old, new, folder, text):
-    """Returns True if the old plan has the same contents and cases as the new one. The places of the study's file and
-    design, the estimate of the trial and the checksum may differ."""
+    """Returns True if the old plan has the same contents and cases as the new one, so that nothing need be written. The
+    places of the study's file and design, the estimate of the trial and the checksum may differ."""
     same = {"source": None, "design": None, "estimate": None, "crc32": None}
     return {**old, **same} == {**new, **same} and read_text(folder / CASES) == text
 
@@ -122,9 +127,9 @@ def what_differs(plan, members):
 
 
 def changes_cases(old, new, folder, text):
-    """Returns True if the new plan changes cases that were begun by the old one, which must then be removed. Raises
-    StudyError if such cases have ended. Not a change are further cases after the old ones (more repetitions or draws),
-    and other values of keep and report."""
+    """Returns True if the new plan changes cases of the old one, so that those which were begun must be removed. Raises
+    StudyError, with code 5, if any case has ended. Not a change are further cases after the old ones (more repetitions
+    or draws), and other values of keep and report. False if there is no old plan."""
     if old is None:
         return False
     what = what_differs(old, {key: new[key] for key in ("set", "scenes", "inputs", "collect", "chunk", "archive")})
@@ -143,7 +148,8 @@ def changes_cases(old, new, folder, text):
 def refuse_changed_file(file, study):
     """Raises StudyError if a study's file now sets or collects something else than the plan that was made from it. Only
     a file that is newer than the plan is compared, with the design of the plan (--design), if it had one. The number of
-    repetitions may differ, because --repetitions of `plan` changes it."""
+    repetitions may differ, because --repetitions of `plan` changes it. So cases of one text may be the first ones of
+    the other. The code of the error is 5."""
     if os.path.getmtime(file) <= os.path.getmtime(study.folder / PLAN):
         return
     definition = read_definition(file, study.plan.get("design"))
@@ -174,8 +180,9 @@ def chunk_size(given, old, count):
 
 def copy_scenes(definition, folder, lines):
     """Copies the scenes, and the floe files that they or the cases name, into `folder`, because a cluster gets only the
-    study's folder. Returns the names of the copies, relative to `folder`. Raises StudyError if a scene is not JSON or
-    cannot be read."""
+    study's folder. Returns the names of the copies of the scenes, relative to `folder`, in the order of the study.
+    Raises StudyError if a scene is not JSON or cannot be read. A floe file that is missing is left to the check of the
+    cases."""
     names = []
     for i, name in enumerate(definition.scenes):
         source = definition.folder / name
@@ -226,7 +233,7 @@ def digest_of(folder, scenes):
 
 def write_cases(folder, lines):
     """Writes cases.ndjson, and cases.index with the start of each line, by which a case is found without reading the
-    others."""
+    others: 8 bytes each, little-endian [bytes]. Both files are replaced."""
     offsets, at = [], 0
     for line in lines:
         offsets.append(struct.pack("<Q", at))
@@ -247,7 +254,7 @@ def is_seed(path):
 def check_cases(definition, folder, scenes, lines, options):
     """Checks every case as `polynya run` would. Of cases that differ only in their seeds, the first is checked fully,
     and of the others only that the seeds are allowed, unless --check-seeds is given. Returns the number of full checks.
-    Raises StudyError with the problems (in_words)."""
+    Raises StudyError with the problems of all cases (in_words). `folder` has the copied scenes."""
     tasks = [{} for _ in scenes]  # the text of a case -> the numbers of the cases with that text
     problems = {}
     for number, line in enumerate(lines):
@@ -276,8 +283,9 @@ def check_cases(definition, folder, scenes, lines, options):
 
 def check_scene(scene, name, groups, problems):
     """Checks a scene's cases with `polynya validate --cases`, in as many processes as there are processors, but at
-    least 50 cases each. `name` names the scene in messages, and `groups` has (text of the case, numbers of the cases
-    that it stands for). Adds to `problems`: {(path, message): numbers of the cases}."""
+    least 50 cases each, so that few cases do not start many processes. `name` names the scene in messages, and `groups`
+    has (text of the case, numbers of the cases that it stands for). Adds to `problems`: {(path, message): numbers of
+    the cases}. Raises StudyError with code 5 if the program fails for another reason than wrong cases."""
     parts = max(1, min(os.cpu_count() or 1, len(groups) // 50))
     with tempfile.TemporaryDirectory() as work, concurrent.futures.ThreadPoolExecutor(parts) as pool:
 
@@ -316,8 +324,9 @@ def check_scene(scene, name, groups, problems):
 
 
 def in_words(definition, problems, count):
-    """Lists each of the first MOST_SHOWN problems once, at the place in the study that sets its key, with the cases
-    that have it. `count` is the number of all cases. A last line counts the other problems."""
+    """Returns a list with each of the first MOST_SHOWN problems once, at the place in the study that sets its key, with
+    the cases that have it; a list of cases longer than 40 characters is cut. `count` is the number of all cases. A last
+    line counts the other problems."""
     words = []
     for (path, message), numbers in list(problems.items())[:MOST_SHOWN]:
         numbers = sorted(numbers)
@@ -339,7 +348,8 @@ def in_words(definition, problems, count):
 
 def place_of(definition, path):
     """Place in the study's file, as a path of keys, at which it sets the scene's key `path`, a part of it, or an object
-    that contains it; ["scene"] if it sets none of these, because the problem is then in the scene itself."""
+    that contains it; ["scene"] if it sets none of these, because the problem is then in the scene itself. If several
+    fit, the first one in the order below counts."""
     blocks = [
         (["set"], definition.fixed),
         (["grid"], definition.grid),

@@ -3,7 +3,8 @@ import os
 import signal
 
 # Signals after which the running cases write checkpoints before the study ends. Any other signal keeps its default
-# action. Job scripts can ask Slurm for SIGUSR1 some time before their time limit.
+# action, so that the study ends at once and its runs stop with checkpoints on their own (case.run_program). Job scripts
+# can ask Slurm for SIGUSR1 some time before their time limit.
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGUSR1)
 
 
@@ -24,7 +25,7 @@ class Stop:
                 signal.signal(number, self.on_signal)
 
     def on_signal(self, number, _frame):
-        """Raises the request at the first signal. Further signals change nothing."""
+        """Raises the request at the first signal. Further signals change nothing, so they cannot hurry the end."""
         if not self.is_raised:
             self.is_raised = True
             os.close(self.writer)
