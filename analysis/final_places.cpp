@@ -27,7 +27,6 @@ constexpr std::size_t kMostMisplaced = 20;  ///< number of floes that the text l
 
 /// Largest accepted distance of a vertex from its place by a frame [m]. The frame's tolerance applies to each axis, so
 /// the position may be wrong by √2 times as much. `arm` is the distance from the floe's centre of mass [m].
-/// the position may be wrong by √2 times as much. `arm` is the distance from the floe's centre of mass [m].
 double allowed_distance(double arm) {
   return std::numbers::sqrt2 * io::kFramePositionTolerance + io::kFrameAngleTolerance * arm + kRounding;
 }

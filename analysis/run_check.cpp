@@ -84,7 +84,7 @@ class WorkCheck {
     return geometry::measure({hull_of(run_.scene.scene, static_cast<std::size_t>(body.ship)).hull.waterline, {}}).area;
   }
 
-  /// Stores a difference. Of a pair that differs at several frames, the frame with the largest crushed area is kept.
+  /// Stores a difference. Of a pair that differs at several frames, the frame with the largest expected area is kept.
   void enter(const PairKey& pair, const UnpaidOverlap& overlap) {
     compared_.insert(pair);
     check_.paid_pairs = compared_.size();

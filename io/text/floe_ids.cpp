@@ -39,7 +39,7 @@ std::string in_words(Fault fault, std::size_t count, const std::string& example)
     case Fault::kOfFeature:
       return fmt::format("{} {} not among the properties but the feature's ({})", count, is_or_are, example);
     case Fault::kRepeated:
-      return fmt::format("{} {} that of an earlier floe ({})", count, is_or_are, example);
+      return fmt::format("{} {} the number of an earlier floe ({})", count, is_or_are, example);
     case Fault::kMissing:
       return fmt::format("{} {} none", counted(count, "floe"), count == 1 ? "has" : "have");
   }
@@ -93,7 +93,7 @@ std::string source_id_key(const std::vector<FloeEntry>& entries) {
 }
 
 std::string replaced_in_words(std::string_view why, std::string_view key) {
-  return fmt::format("floe_id: {}; floes are numbered, and each keeps what the file calls it as {}", why, key);
+  return fmt::format("floe_id: {}; floes are numbered, and the name of each in the file is kept as {}", why, key);
 }
 
 }  // namespace polynya::io

@@ -39,13 +39,14 @@ def scene_parts(given):
     if isinstance(given, collections.abc.Mapping):
         try:
             return "", json.dumps(dict(given), default=_plain, allow_nan=False), False
-        except ValueError:
-            found = _first_not_finite(given)
+        except (ValueError, RecursionError):
+            try:
+                found = _first_not_finite(given)
+            except RecursionError:
+                raise ValueError("the scene holds itself, or is nested too deep") from None
             if found is None:
                 raise
             raise ValueError(f"{found[0]}: found {found[1]}, allowed: a finite number") from None
-        except RecursionError:
-            raise ValueError("the scene holds itself, or is nested too deep") from None
     if isinstance(given, str) and "{" in given:
         return "", given, True
     if not isinstance(given, (str, os.PathLike)):

@@ -283,7 +283,7 @@ TEST_F(Import, IdsThatCannotBeKeptAreKeptUnderAnotherKey) {
             "1 is no whole number from 0 on (3.5)",
             {R"("source_id":3.5)", R"("source_id":7)"}},
            {floes(R"("floe_id":-3)", R"("floe_id":7)"), "1 is no whole number from 0 on (-3)", {R"("source_id":-3)"}},
-           {floes(R"("floe_id":7)", R"("floe_id":7)"), "1 is that of an earlier floe (7)", {R"("source_id":7)"}},
+           {floes(R"("floe_id":7)", R"("floe_id":7)"), "1 is the number of an earlier floe (7)", {R"("source_id":7)"}},
            {floes(R"("floe_id":9007199254740993)", R"("floe_id":1)"),
             "1 is beyond 2^53 (9007199254740993)",
             {R"("source_id":9007199254740993)"}},

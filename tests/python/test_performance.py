@@ -13,6 +13,8 @@ from polynya.performance import level_ice, sensitivity
 from polynya.performance.__main__ import hull_of, print_table, ship_of
 from polynya.performance.curve import VALIDATED_THICKNESS, Curve, beyond_band
 from polynya.performance.options import USES, command_line, problem_of, read_options
+from polynya.program import program
+from polynya.runs_kept import RunFailed, kept_run
 
 HULL = formulas.Hull(120, 24, 6, math.radians(30), math.radians(27))
 
@@ -344,3 +346,12 @@ def test_the_course_is_straight_ahead_wherever_the_ship_of_the_file_went():
     (ship,) = level_ice.scene(turned, formulas.Ice(0.5), 2, 8, 0.01)["ships"]
     assert ship["heading_deg"] == 0 and ship["position_m"] == [-52, 0] and "yaw_rate_deg_per_s" not in ship
     assert ship["pilot"] == {"hold_heading": {"heading_deg": 0, "lever": 1}}
+
+
+def test_a_run_of_an_old_scene_is_never_taken_for_one_of_a_new_scene(tmp_path):
+    scene = {"time": {"until_s": 1, "step_s": 0.1}, "floes": [{"rectangle": {"corner_m": [0, 0], "size_m": 20}}]}
+    assert kept_run(program(), tmp_path, "a", scene) == tmp_path / "a"
+    for _ in range(2):
+        with pytest.raises(RunFailed):
+            kept_run(program(), tmp_path, "a", {**scene, "time": {"until_s": -1}})
+    assert kept_run(program(), tmp_path, "a", scene) == tmp_path / "a"

@@ -293,6 +293,17 @@ def test_slurms_script_has_the_chunks_that_are_left(folder):
     assert "every case has ended" in study("slurm", "studies/s")
 
 
+def test_slurm_runs_failed_cases_of_packed_chunks_again_where_it_is_asked_to(folder):
+    case = planned(folder, archive=True) / "cases/000000"
+    case.mkdir(parents=True)
+    result = {"state": "failed", "case": 0, "message": "numbers stopped being numbers", "exit_code": 4}
+    (case / "case.json").write_text(json.dumps(result))
+    study("run", "studies/s", "--quiet", code=4)
+    assert names_in(folder / "studies/s/cases") == ["000000.tar"]
+    assert "every case has ended" in study("slurm", "studies/s")
+    assert "1 task" in study("slurm", "studies/s", "--retry-failed")
+
+
 def test_slurm_gets_the_memory_asked_for_twice_and_each_job_is_named_as_it_is_taken(folder, monkeypatch):
     (folder / "bin").mkdir()
     sbatch = folder / "bin" / "sbatch"

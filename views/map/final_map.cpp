@@ -345,7 +345,12 @@ io::Result<std::string> draw_final_map(const io::Run& run) {
   if (const auto written = io::write_whole_file(file, svg, io::Durability::kSynced); !written)
     return io::fail(written.error());
   const auto png = run.folder / io::run_file::kFinalPng;
-  if (svg.size() > kLargestConverted || !convert_to_png(file, png)) return std::string(io::run_file::kFinalSvg);
+  if (svg.size() > kLargestConverted) {
+    std::error_code error;
+    std::filesystem::remove(png, error);  // remove the file of an earlier picture
+    return std::string(io::run_file::kFinalSvg);
+  }
+  if (!convert_to_png(file, png)) return std::string(io::run_file::kFinalSvg);
   return std::string(io::run_file::kFinalPng);
 }
 

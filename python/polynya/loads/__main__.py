@@ -32,8 +32,8 @@ def report(options):
     (loads/options.py), `folder` is that of a run or a study, `start` the first time that counts [s], `panel` the length
     of the panels by which peaks are counted [m], `least` the threshold of the fits [N], and `half_width` that of the
     intervals for which the record needed is stated, as a fraction of the value. A table without rows is not written,
-    but one of an earlier call is left. Returns an exit code: USAGE if the options do not fit the folder, for example a
-    ship that the run does not have. run() reports other errors and gives their exit codes."""
+    and one of an earlier call is removed. Returns an exit code: USAGE if the options do not fit the folder, for example
+    a ship that the run does not have. run() reports other errors and gives their exit codes."""
     # These modules need numpy, scipy and matplotlib, which the texts of --help do not.
     from polynya.errors import InputError
     from polynya.study.located_json import StudyError

@@ -90,9 +90,9 @@ def roles_of(plan, parameters, table):
         raise InputError("the study varies nothing but seeds: there is nothing to rank")
     objects = [name for name in varied if any(isinstance(parsed(value), dict) for value in different(table, name))]
     given = asked.get("against")
-    if given in varied and any(x_of(given, value) is None for value in different(table, given)):
+    if given in varied and not has_axis(table, given):
         raise InputError(f"report.against: {given} has values that are no numbers, so it cannot be an axis")
-    against = given or next((name for name in varied if "drift" in name and name not in objects), None)
+    against = given or next((name for name in varied if "drift" in name and has_axis(table, name)), None)
     grouped = asked.get("group_by") or objects or [name for name in varied if name != against][:1] or varied[:1]
     by = [grouped] if isinstance(grouped, str) else list(grouped)
     rest = [name for name in varied if name not in by and not follows(table, name, by)]
@@ -110,6 +110,11 @@ def x_of(against, value):
     if not is_number(value):
         return None
     return abs(float(value)) if "drift" in against else float(value)
+
+
+def has_axis(table, name):
+    """Returns True if every value of a parameter has a place on the x axis of a figure."""
+    return all(x_of(name, value) is not None for value in different(table, name))
 
 
 def path_of(name):

@@ -1,5 +1,6 @@
 """The ranking of patterns, as lines of text and as a table."""
 import csv
+import math
 
 from ..files import writing
 from ..readable import plain

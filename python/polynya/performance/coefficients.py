@@ -61,8 +61,9 @@ def print_table(rows):
           f"{'under hull':>12}{'fit [kN]':>10}")
     for row in rows:
         mark = "" if row["is_in_validated_range"] else "*"
+        error = "-" if math.isnan(row["error_N"]) else f"{row['error_N'] / 1e3:.1f}"
         print(f"{row['speed_m_per_s']:8g}{row['thickness_m']:8g}{row['cover']:7g}{row['floe_size_m']:11g}"
-              f"{row['resistance_N'] / 1e3:10.1f}{row['error_N'] / 1e3:10.1f}{row['contact_N'] / 1e3:10.1f}"
+              f"{row['resistance_N'] / 1e3:10.1f}{error:>10}{row['contact_N'] / 1e3:10.1f}"
               f"{row['submerged_N'] / 1e3:12.1f}{row['fit_N'] / 1e3:10.1f} {mark}".rstrip())
     print("± fields: standard error of the mean over random fields, not the model's error")
     if any(not row["is_in_validated_range"] for row in rows):
@@ -126,6 +127,7 @@ def main(arguments, found, ice, fail, codes):
     beam = found["ship"]["hull"]["beam_m"]
     try:
         rows = runs.rows(points, arguments.jobs, report_progress)
+        write_table(os.path.join(folder, f"{name}.csv"), rows)  # also if the fit fails
         with_resistance = [row for row in rows if row["resistance_N"] > 0]
         fitted = colbourne.fit(with_resistance, [row["resistance_N"] for row in with_resistance], beam, ice.density)
     except (RunFailed, colbourne.NotEnough) as error:
@@ -139,7 +141,7 @@ def main(arguments, found, ice, fail, codes):
     print(f"{colbourne.FORM}: k = {fitted.k:.3g} ± {fitted.k_error:.2g}, b = {fitted.b:.2f} ± {fitted.b_error:.2f}"
           f"{of_cover}; a point lies within a factor of {fitted.scatter:.2f} (one standard deviation)")
     if math.isclose(arguments.fields, 1) and name != ice_scenes.LEVEL:
-        print("one field a point: errors of the means are not known (--fields 4)")
+        print("Each point is a run in one field of ice, so the errors of the means are not known: --fields 4")
     write_files(folder, name, rows, found, ice, fitted)
     if name == ice_scenes.CHANNEL:
         asked = rules.rows(found["ship"], rows)

@@ -10,6 +10,10 @@ from ..files import naming  # noqa: E402
 from ..formulas import KNOT  # noqa: E402
 from .curve import VALIDATED_THICKNESS, formula_words  # noqa: E402
 
+# Half of the 95 % interval over the standard error of a mean speed, by Student's distribution with 5 degrees of
+# freedom: the error is estimated from level_ice.BLOCKS = 6 parts of the course.
+STUDENT = 2.571
+
 # (name of the formula in the rows, name in the legend, line style). The shaded band lies between their speeds.
 FORMULAS = (
     ("lindqvist", "Lindqvist 1989", "-"),
@@ -60,11 +64,11 @@ def draw_formulas(axes, rows):
 
 
 def draw_points(axes, rows):
-    """Draws the points of the simulation with their marks and the interval of the run's scatter (1.96 standard errors,
-    95 % of a normal distribution). The legend also states the share of Lindqvist's formula in the resistance. Returns
+    """Draws the points of the simulation with their marks and the interval of the run's scatter (95 % by Student's
+    distribution). The legend also states the share of Lindqvist's formula in the resistance. Returns
     the legend entries."""
     thickness, speed = ([row[key] for row in rows] for key in ("thickness_m", "speed_m_per_s"))
-    scatter = [1.96 * row["error_m_per_s"] for row in rows]
+    scatter = [STUDENT * row["error_m_per_s"] for row in rows]
     of_points = axes.errorbar(thickness, speed, yerr=scatter, fmt="o-", color=BLUE, markersize=3.5, linewidth=1.2,
                               capsize=2, label="Polynya, ± 95 % of the run's own scatter")
     handles = [of_points]

@@ -60,7 +60,7 @@ def in_words(value, digits=6):
     """A number as text with that many significant digits; with the default, whole numbers have all their digits. An
     exponent is used only below 1e-4 and from 1e12 on. Other values are converted by str()."""
     if not isinstance(value, (int, float)) or not math.isfinite(value):
-        return str(value).replace("inf", "∞")
+        return re.sub(r"\binf\b", "∞", str(value))
     if value and not 1e-4 <= abs(value) < 1e12:
         return f"{value:.{digits}g}"
     if digits == 6 and value == int(value):
@@ -176,7 +176,7 @@ def outcome_map(sample, over, folder):
     if len(xs) < len(ys):
         over, xs, ys = over[::-1], ys, xs
     outcomes = sample.columns["outcome"]
-    with page.Sheet(page.Page(), "What the runs came to", CAPTION) as sheet:
+    with page.Sheet(page.Page(), "Outcomes of the cases", CAPTION) as sheet:
         axes = sheet.panels(1, 1)[0, 0]
         for i, x in enumerate(xs):
             for k, y in enumerate(ys):
@@ -196,7 +196,7 @@ def outcome_map(sample, over, folder):
 
 
 # Caption of the map of outcomes.
-CAPTION = "Most frequent outcome; paler, and in percent, where it is not that of all"
+CAPTION = "Outcome of most cases; paler, with its share, where it is not the outcome of all"
 
 
 def draw_cell(axes, i, k, outcomes, is_numbered):

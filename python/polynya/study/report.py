@@ -70,7 +70,7 @@ def draw(study, sample, choices, folder):
         made.append(
             (
                 pictures.outcome_map(sample, choices.map, folder),
-                "What the runs came to: most frequent outcome; paler, and in percent, where it is not that of all.",
+                "Outcome of most cases. Where it is not the outcome of all, the colour is paler with the share.",
             )
         )
     chosen = channels.choose(study, sample, choices.group_by, choices.channels)
@@ -195,10 +195,11 @@ def page(study, sample, choices, made, rows):
     ]
     lines.append(
         "<h2>Statistics</h2><p>Means and 95 % intervals (Student); quantile with the interval of order statistics; "
-        "cases that make the mean's "
-        "interval ±5 % of it; what the fit of peaks is exceeded by in one run of a hundred, with its bootstrap "
-        "interval: struck through where the Kolmogorov–Smirnov or the Anderson–Darling test refutes the fit (p below "
-        "0.05), which then gives no value.</p><div class='wide'>" + statistics_table(rows, choices.group_by) + "</div>"
+        "number of cases with which the interval of the mean would be ±5 % of it; peak that one run of a hundred "
+        "exceeds by the fit, with its bootstrap interval: struck through where the Kolmogorov–Smirnov or the "
+        "Anderson–Darling test refutes the fit (p below 0.05), which then gives no value.</p><div class='wide'>"
+        + statistics_table(rows, choices.group_by)
+        + "</div>"
     )
     lines.append("<h2>Cases</h2>" + case_table(study, sample))
     if sample.meanings:

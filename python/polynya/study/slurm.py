@@ -7,6 +7,7 @@ import shutil
 import subprocess
 
 from ..program import program
+from .archive import results_of
 from .case import DONE, state_of
 from .folder import list_of_numbers, write_atomically
 from .located_json import StudyError
@@ -55,12 +56,13 @@ exec {program} study gather {folder}
 
 def chunks_to_run(study, retries_failed=False):
     """Numbers of the chunks with a case that has not ended, or whose archive must still be packed. With
-    `retries_failed`, failed cases count as not ended. A packed chunk is left out even if it has failed cases and
-    `retries_failed` is given; `polynya study run --retry-failed` runs those again."""
+    `retries_failed`, failed cases count as not ended, also those of packed chunks, which their tasks unpack."""
     ended = {"finished"} if retries_failed else {"finished", "failed"}
     chunks = []
     for chunk in range(study.chunks):
         if study.archive(chunk).exists():
+            if retries_failed and any(result["state"] == "failed" for result in results_of(study, chunk)):
+                chunks.append(chunk)
             continue
         if study.plan["archive"] or any(state_of(study.case_folder(n))[0] not in ended for n in study.cases_of(chunk)):
             chunks.append(chunk)
