@@ -87,8 +87,9 @@ class FloeListReader {
   /// Adds floes that the resolved scene represents by the present entry itself, because it makes the same floes again.
   /// `are_known_valid`: the outlines are valid by construction and need no check.
   void add_all(std::vector<geometry::Polygon> floes, bool are_known_valid);
-  /// Makes a random field, and sets the defaults of `input`. Returns nothing if the field is wrong, which is reported
-  /// at `report`, or if the scene has other problems already, because a large field takes long.
+  /// Makes a random field, and sets the defaults of `input`. Returns nothing if the field is wrong or does not reach
+  /// its concentration, which is reported at `report`, or if the scene has other problems already, because a large
+  /// field takes long.
   std::optional<simulation::FloeFieldOutcome> make_field(FieldInput& input, const ReportAt& report);
   /// Sets the defaults of a channel, and reports keys that exclude each other. Returns true if there is no problem.
   bool check_channel(ChannelInput& channel, const ReportAt& report);
@@ -116,7 +117,8 @@ class FloeListReader {
   /// Returns the index of the ship with this name under whose hull a floe is; −1, and a report at `origin`, if there is
   /// no such ship or if it has no draught.
   int ship_over(const std::string& name, const Origin& origin);
-  /// Returns true if the scene may have `count` more floes; otherwise reports at `path` that there would be too many.
+  /// Returns true if the scene may have `count` more floes (kMostFloes in all); otherwise reports at `path` that there
+  /// would be too many.
   bool has_room_for(std::size_t count, const std::string& path);
   /// Reports a problem of a member of the present entry, such as "lattice.size_m".
   void report(std::string_view key, std::string found, std::string allowed) const {

@@ -111,7 +111,7 @@ class ProblemCollector {
 /// "hull.draught_m"; an empty key means the value itself. If the source does not have the member, the place is that of
 /// the innermost value around it.
 struct ReportAt {
-  ProblemCollector& problems;
+  ProblemCollector& problems;  ///< where problems are added; must exist longer than this object, as must the value
   const JsonValue& value;
   std::string path;  ///< path of the value; empty: the root
 
