@@ -38,7 +38,8 @@ __all__ += ["FolderError", "NotARunError", "NotAStudyError", "UnfinishedError", 
 __path__.append(_os.path.join(_os.path.dirname(_os.path.dirname(_os.path.dirname(_os.path.abspath(__file__)))),
                               "python_core"))
 
-# Names that __getattr__ takes from the compiled module, and from polynya.errors.
+# Names that __getattr__ takes from the compiled module, and from polynya.errors. A new public name belongs here or into
+# __getattr__, into __all__, and into the imports above; without the first it cannot be used.
 _COMPILED = {"FloeMemory", "Floes", "PilotView", "Scene", "SeenShip", "Ship", "Simulation"}
 _ERRORS = {"FolderError", "NotARunError", "NotAStudyError", "Problem", "SceneError",
            "SimulationError", "UnfinishedError", "VersionError"}

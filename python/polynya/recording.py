@@ -26,6 +26,7 @@ class Recording:
         return self
 
     def __exit__(self, kind, error, traceback):
+        # The reason is that of summary.json: "KeyError: 'mine'". The exception is raised again.
         self.close("" if kind is None else f"{kind.__name__}: {error}".rstrip(": "))
 
     def close(self, stopped_by=""):

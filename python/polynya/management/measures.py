@@ -15,11 +15,11 @@ LEVELS = (0.5, 0.9, 0.99)
 
 
 def hits_on(run, gates):
-    """Contacts of the body with floes of at least the size `gates.size`, at the recorded frames. A contact that
-    continues from frame to frame counts once, and one between two frames is missed. Returns the size √area of the floe
-    of each contact [m], in no order, the number of contacts, and the time with any contact [s], which is the number of
-    such frames times their interval. Returns None if the scene records no contacts. `run` is a results.run.Run, `gates`
-    a gates.Gates."""
+    """Contacts of the body with floes of at least the size `gates.size`, from the rows of contacts.csv. A row at a peak
+    between two frames counts at the later frame, so a contact between frames without a recorded peak is missed. A
+    contact that continues from frame to frame counts once. Returns the size √area of the floe of each contact [m], in
+    no order, the number of contacts, and the time with any contact [s], which is the number of such frames times their
+    interval. Returns None if the scene records no contacts. `run` is a results.run.Run, `gates` a gates.Gates."""
     if run.scene["record"]["contacts"] == "none":
         return None
     contacts, births = run._table("contacts.csv", ""), run.births
@@ -29,6 +29,7 @@ def hits_on(run, gates):
     is_body = ((ships == gates.body) & (by_floe >= 0)) | ((by_ship == gates.body) & (floes >= 0))
     is_body &= times > gates.start
     touched = numpy.where(ships[is_body] == gates.body, by_floe[is_body], floes[is_body]).astype(int)
+    # A time between two frames counts at the later one; 1e-6 s are for times that files round differently.
     touches = set(zip(touched.tolist(), numpy.searchsorted(run.times, times[is_body] - 1e-6).tolist()))
     touches = {(floe, frame) for floe, frame in touches if births["area_m2"][floe] >= gates.size**2}
     begun = [(floe, frame) for floe, frame in touches if (floe, frame - 1) not in touches]

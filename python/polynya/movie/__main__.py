@@ -86,7 +86,8 @@ class Progress:
 
     def __init__(self):
         self._start = self._shown = time.monotonic()
-        self._least = 0.1 if sys.stderr.isatty() else 10.0  # time between two reports [s]
+        # Time between two reports [s]. Smaller: the terminal flickers, or a log has more lines.
+        self._least = 0.1 if sys.stderr.isatty() else 10.0
 
     def __call__(self, done, count):
         now = time.monotonic()

@@ -111,6 +111,7 @@ def run_waiting(study, waiting, jobs, keep, stop, counts, table):
                 break
             counts.running = sorted(running.values())[:jobs]
             table.show(counts)
+            # 0.2 s: the table is live, and a stop is seen, also while no case ends. A shorter time costs work.
             ended, _ = concurrent.futures.wait(running, 0.2, concurrent.futures.FIRST_COMPLETED)
             for future in ended:
                 del running[future]

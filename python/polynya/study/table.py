@@ -16,9 +16,9 @@ CLEAR_LINE = "\033[K"  # deletes the rest of a line of a terminal, if the new te
 class Counts:
     """Numbers of cases of a study. A case has ended if it is done or failed."""
 
-    total: int
-    done: int = 0
-    failed: int = 0
+    total: int  # number of the cases that the command was asked for, also those that ended before
+    done: int = 0  # number of finished cases, also before this command
+    failed: int = 0  # number of failed cases, also before this command, unless they run again
     # Cases that ended before their time and continue from a checkpoint when the command runs again. They are not ended.
     stopped: int = 0
     running: list = dataclasses.field(default_factory=list)  # numbers of the cases that run
