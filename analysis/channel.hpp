@@ -18,14 +18,17 @@ namespace polynya::analysis {
 struct ChannelOptions {
   std::size_t ship = 0;        ///< index of the hull: ships first, then structures and walls (hull_of())
   std::optional<double> time;  ///< instant [s]; nullopt: the end of the run
-  /// Distance between stations along the track [m]; 0: the ship's beam. A width is the room that a body of this length
-  /// has, so a larger spacing gives fewer and smaller widths.
+  /// Distance between stations along the track [m]; 0 or negative: the ship's beam. A width is the room that a body of
+  /// this length has, so a larger spacing gives fewer and smaller widths.
   double spacing = 0;
-  double reach = 0;  ///< distance to either side of the track within which ice is searched [m]; 0: four beams
+  /// Distance to either side of the track within which ice is searched [m]; 0 or negative: four beams. A larger reach
+  /// finds ice on both sides in more cells, and more open water beside the channel.
+  double reach = 0;
 };
 
 /// A cell of the channel. It is as long as the spacing along the track and extends as far as the reach to either side.
-/// The first cell begins at the beginning of the track; the last one ends at or before the ship's stern.
+/// The first cell begins at the beginning of the track; the last one ends at or before the ship's stern. A cell at
+/// whose end the ship was back at its beginning has no length, and no station.
 struct ChannelStation {
   double along = 0;          ///< distance of its middle from the beginning of the track [m]
   double passed = 0;         ///< time at which the ship's centre was there [s]
@@ -35,9 +38,9 @@ struct ChannelStation {
   /// Distance from that line to the nearest ice to port that is not brash, anywhere in the cell, measured at right
   /// angles to `forward` [m]. It is 0 if ice lies across the line, and the reach if the cell has no such ice to port.
   double port = 0;
-  double starboard = 0;  ///< the same to starboard [m]
-  bool has_port_ice = false;
-  bool has_starboard_ice = false;
+  double starboard = 0;            ///< the same to starboard [m]
+  bool has_port_ice = false;       ///< true if `port` is a distance to ice, false if it is only the reach
+  bool has_starboard_ice = false;  ///< the same for `starboard`; ice across the line is on both sides
   /// Fraction of the cell within half a beam of the track that ice covers, brash included [-].
   double ice_across_beam = 0;
   double channel_area = 0;  ///< area of the cell from ice to ice [m²]; 0 if the cell has no ice on one of the sides
@@ -59,18 +62,18 @@ struct ChannelFloe {
   simulation::FloeId floe = 0;
   double size = 0;    ///< √area [m]
   double area = 0;    ///< [m²]
-  double inside = 0;  ///< area that is in the band or channel [m²]
+  double inside = 0;  ///< area that is in the band (Channel::floes) or between the ice (Channel::brash_pieces) [m²]
 };
 
 /// Result of a measurement.
 struct Channel {
-  std::string ship;                    ///< name of the ship or structure
-  double time = 0;                     ///< instant of the measurement [s]
-  double beam = 0;                     ///< beam of the hull's waterline [m]
-  double spacing = 0;                  ///< spacing that was used, never 0 [m]
-  double reach = 0;                    ///< reach that was used, never 0 [m]
-  std::vector<geometry::Point> track;  ///< track of the ship's centre, carried with the water to the instant [m]
-  std::vector<ChannelStation> stations;
+  std::string ship;                      ///< name of the ship or structure
+  double time = 0;                       ///< instant of the measurement [s]
+  double beam = 0;                       ///< beam of the hull's waterline [m]
+  double spacing = 0;                    ///< spacing that was used, never 0 [m]
+  double reach = 0;                      ///< reach that was used, never 0 [m]
+  std::vector<geometry::Point> track;    ///< track of the ship's centre, carried with the water to the instant [m]
+  std::vector<ChannelStation> stations;  ///< in the order of the track; none if it is too short
   std::vector<geometry::Polygon> swept;  ///< band that the hull swept, carried with the water to the instant [m]
   double swept_area = 0;                 ///< area of `swept` [m²]
   double swept_ice_at_start = 0;         ///< area of the swept band that was ice when the run began [m²]
@@ -93,7 +96,7 @@ struct Channel {
   double brash_cover() const;  ///< fraction of `area` that brash covers [-]; NaN if the area is 0
 };
 
-/// Widths of the stations with ice on both sides [m]; NaN if there are none.
+/// Widths of the stations with ice on both sides [m]: mean, smallest and largest; NaN if there are none.
 struct WidthSummary {
   std::size_t count = 0;  ///< number of these stations
   double mean = 0, least = 0, most = 0;
@@ -107,8 +110,8 @@ struct BrashSizes {
 };
 BrashSizes brash_sizes(const Channel& channel);
 
-/// Measures a channel. Fails with a message if the run has no frames, not the ship or not the time, or if a cut of
-/// polygons fails.
+/// Measures a channel. Fails with a message if the run has no frames, no hull with that index, or does not reach to
+/// that time, or if a cut of polygons fails. A ship that has hardly moved is no failure: the result has no stations.
 io::Result<Channel> measure_channel(const io::Run& run, const ChannelOptions& options);
 
 /// Returns only the stations of the same channel: places, distances to ice and is_channel. Their members about covered
@@ -120,9 +123,11 @@ io::Result<std::vector<ChannelStation>> measure_stations(const io::Run& run, con
 /// Returns a table for people, with units in the headers: the stations, then widths, ice and brash in the channel, and
 /// the sizes of the floes that are left in the band.
 std::string to_table(const Channel& channel);
-/// Returns a CSV table with one row per station (channel.csv). Its columns are part of the file format.
+/// Returns a CSV table with one row per station (channel.csv), the beginning of the track first. Its columns are part
+/// of the file format. A brash cover that is NaN becomes null.
 std::string to_csv(const Channel& channel);
-/// Returns the sums and the lists of floes as one JSON object, without shapes and without stations.
+/// Returns the sums and the lists of floes as one JSON object, without shapes and without stations. A value that is NaN
+/// becomes null. The keys are part of the interface (`polynya channel --json`).
 std::string to_json_text(const Channel& channel);
 /// Returns open water, channel, brash, swept band, track and stations as a GeoJSON FeatureCollection (channel.geojson).
 /// Coordinates are in metres in the scene's plane.
@@ -137,20 +142,21 @@ struct PlacedIce {
   geometry::Box box;
 };
 
-/// Adds the polygon of a floe in the world. Rounding may make the placed shape invalid. It is then replaced by the area
-/// around which its rings wind, as one or more polygons, or by none if they enclose no area. Fails with a message if a
-/// coordinate is not finite.
+/// Adds the polygon of a floe in the world to `ice`. Rounding may make the placed shape invalid. It is then replaced by
+/// the area around which its rings wind, as one or more polygons, or by none if they enclose no area. Fails with a
+/// message if a coordinate is not finite.
 io::Result<> add_ice(std::vector<PlacedIce>& ice, const simulation::BirthRecord* birth,
                      geometry::Polygon polygon_in_world);
 
-/// Returns copies of the polygons whose bounding boxes overlap a box. It limits a cut to the ice that can matter.
+/// Returns copies of the polygons whose bounding boxes overlap a box [m], in their order. It limits a cut to the ice
+/// that can matter.
 std::vector<geometry::Polygon> near(const std::vector<PlacedIce>& ice, const geometry::Box& box);
 
 /// The parts of a polygon that other polygons cover and do not cover.
 struct Parted {
-  std::vector<geometry::Polygon> inside;
-  std::vector<geometry::Polygon> outside;
-  double inside_area = 0;  ///< [m²]
+  std::vector<geometry::Polygon> inside;   ///< covered by at least one of the others [m]
+  std::vector<geometry::Polygon> outside;  ///< covered by none [m]
+  double inside_area = 0;                  ///< area of `inside`, where others overlap counted once [m²]
 };
 
 /// Divides a polygon into the parts inside and outside of others. The result is exact except for one rounding of
@@ -159,21 +165,23 @@ struct Parted {
 io::Result<Parted> part(const geometry::Polygon& polygon, const std::vector<geometry::Polygon>& by);
 
 /// Returns the place at the time `to` [s] of a point that moves with the water from the time `from` [s], with the
-/// scene's drift and shear. The map is affine in the plane; it does not depend on the motion of floes.
+/// scene's drift, tide and shear, without the wind. `to` may be before `from`. The map is affine in the plane; it does
+/// not depend on the motion of floes.
 geometry::Point carried_by_water(const simulation::WaterSettings& water, geometry::Point point, double from, double to);
 geometry::Polygon carried_by_water(const simulation::WaterSettings& water, geometry::Polygon polygon, double from,
                                    double to);
 
 /// Divides the time from the run's start to `time` [s] into pieces and returns the start and the ends of the pieces
-/// [s]. Pieces end at frames, and the last one at `time`. A piece is as long as possible, up to 256 frames: at
-/// each frame in it, every corner of the hull, carried by the water to `time`, is within `tolerance` [m] of the
-/// straight line between the corner's places at the ends of the piece. A smaller tolerance gives more pieces.
+/// [s]. Pieces end at frames, and the last one at `time`. A piece is as long as possible, up to 256 frames: at each
+/// frame in it, every corner of the hull, carried by the water to `time`, is within `tolerance` [m] of the straight
+/// line between the corner's places at the ends of the piece. A smaller tolerance gives more pieces. If `time` is the
+/// run's start, the result is that time alone.
 std::vector<double> straight_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship, double time,
                                     double tolerance);
 
 /// Returns, for each straight piece, the convex hull of the ship's waterline at both of its ends, carried by the water
 /// to `time` [s]. Their union is the band that the hull swept, to within the tolerance [m]. A waterline that is not
-/// convex is replaced by its convex hull.
+/// convex is replaced by its convex hull. At the run's start the only piece is the hull itself.
 std::vector<geometry::Polygon> swept_pieces(const io::Run& run, const io::MotionIndex& motions, std::size_t ship,
                                             double time, double tolerance);
 

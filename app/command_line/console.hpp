@@ -44,8 +44,9 @@ enum ExitCode {
 /// an error instead of a signal.
 void open_streams();
 
-/// Writes to stdout. A failure is stored for close_streams().
+/// Writes to stdout, through its buffer. A failure is stored for close_streams(); the caller does not see it.
 void write_out(std::string_view text);
+/// Formats as fmt::format() does, and writes the text as write_out() does. print_err() is the same for stderr.
 template <typename... Args>
 void print_out(fmt::format_string<Args...> format, Args&&... args) {
   write_out(fmt::format(format, std::forward<Args>(args)...));
@@ -54,14 +55,15 @@ void print_out(fmt::format_string<Args...> format, Args&&... args) {
 /// Writes the buffer of stdout. Call it before another program writes there.
 void flush_out();
 
-/// Writes a message to stderr, after all text that was written to stdout before.
+/// Writes a message to stderr, after all text that was written to stdout before, so that a terminal shows both in
+/// order. A failure is stored for close_streams().
 void write_err(std::string_view text);
 template <typename... Args>
 void print_err(fmt::format_string<Args...> format, Args&&... args) {
   write_err(fmt::format(format, std::forward<Args>(args)...));
 }
 
-/// Writes problems to stderr, one per line: errors, warnings and hints of a scene.
+/// Writes problems to stderr, one per line, in the words of io::to_string(): errors, warnings and hints of a scene.
 void print_lines(const std::vector<io::Problem>& problems);
 
 using io::counted;  // "1 floe", "2 floes"
@@ -72,6 +74,7 @@ ExitCode fail(ExitCode code, std::string_view message);
 /// Result of a part of a command, or the exit code after its message has been written to stderr.
 template <class Value>
 using Outcome = tl::expected<Value, ExitCode>;
+/// Writes a message as fail() does, and returns the failure of an Outcome.
 inline tl::unexpected<ExitCode> failure(ExitCode code, std::string_view message) {
   return tl::unexpected(fail(code, message));
 }
@@ -89,13 +92,14 @@ int close_streams(int code);
 /// ignored.
 void watch_signals();
 
-/// Returns the number of the last signal that asked to stop, or 0. Long commands ask for it between their steps.
+/// Returns the number of the last signal that asked to stop, or 0. Long commands ask for it between their steps. It is
+/// never reset.
 int stop_signal();
 
 /// How progress is shown on stderr.
 enum class ProgressKind {
   kAuto,   ///< the same as kBar
-  kBar,    ///< a bar that is renewed ten times a second; kLines if stderr is not a terminal, or a dumb one
+  kBar,    ///< a bar that is renewed ten times a second; kLines if stderr is no terminal, or TERM is "dumb"
   kLines,  ///< a line every ten seconds
   kJson,   ///< a line with a JSON object every second
   kNone,   ///< nothing
@@ -107,7 +111,7 @@ struct ProgressReport {
   /// Text of a line, or of the field after the bar: ASCII, fields separated by two blanks, important fields first.
   /// Fields at the end that do not fit into the width of the terminal are left out.
   std::string words;
-  std::string json;  ///< one object without a line break
+  std::string json;  ///< one JSON object without a line break, for kJson
 };
 
 /// Prints reports on stderr, as often as their kind requires.
@@ -115,16 +119,19 @@ class ProgressOutput {
  public:
   explicit ProgressOutput(ProgressKind kind);
 
-  /// Returns true if pause() has passed since it last returned true, or since construction. It costs little to call
-  /// often.
+  /// Returns true if pause() has passed since it last returned true, or since construction; always false for kNone. It
+  /// costs little to call often.
   bool is_due();
-  /// Writes a report now, whether it is due or not. Ask is_due() first.
+  /// Writes a report now, whether it is due or not. Ask is_due() first, also because kNone would be shown as a bar.
   void show(const ProgressReport& report) const;
   /// Removes the bar from the terminal; other kinds do nothing.
   void clear() const;
-  double pause() const;  ///< wall time between two reports [s]: 0.1 for a bar, 10 for lines, 1 for JSON
+  /// Wall time between two reports [s]: 0.1 for a bar, so that it moves smoothly, 10 for lines, so that a log stays
+  /// short, and 1 for JSON.
+  double pause() const;
   ProgressKind kind() const { return kind_; }  ///< the kind that is shown: never kAuto
-  /// Shows the last report: it completes a bar and ends its line, or is another JSON object. Lines do not show it.
+  /// Shows the last report: it completes a bar and ends its line, or is another JSON object. Lines do not show it,
+  /// because the command's result follows.
   void finish(const ProgressReport& report) const;
 
   double wall_time() const;  ///< time since construction [s]
@@ -132,12 +139,12 @@ class ProgressOutput {
  private:
   ProgressKind kind_;
   std::chrono::steady_clock::time_point start_;
-  double last_shown_ = 0;  ///< wall time [s]
+  double last_shown_ = 0;  ///< wall_time() at which is_due() last returned true [s]
 };
 
 /// Shows on stderr, from its own thread, that work is in progress, with its wall time and the completed fraction if it
-/// is known. Nothing is shown for the first 2 s (lines: 10 s). The destructor ends it and removes a bar, so that
-/// messages start on a new line.
+/// is known. Nothing is shown for the first 2 s (lines: 10 s), so short work shows nothing. The destructor ends it and
+/// removes a bar, so that messages start on a new line. If the system refuses a thread, no progress is shown.
 class WorkProgress {
  public:
   /// `work` describes the work: "reading the run". It must not need escaping in JSON.
@@ -146,15 +153,15 @@ class WorkProgress {
   WorkProgress& operator=(const WorkProgress&) = delete;
   ~WorkProgress();
 
-  void set_part(double part) { part_ = part; }  ///< completed fraction, 0..1
+  void set_part(double part) { part_ = part; }  ///< completed fraction, 0..1; any thread may call it
 
  private:
-  void show_until(const std::stop_token& stop);
-  ProgressReport report() const;
+  void show_until(const std::stop_token& stop);  ///< what the thread does: shows reports until it is asked to stop
+  ProgressReport report() const;                 ///< the work, its wall time and its completed fraction
 
   ProgressOutput output_;
   std::string work_;
-  std::atomic<double> part_ = -1;
+  std::atomic<double> part_ = -1;  ///< completed fraction; negative: not known
   std::mutex mutex_;
   std::condition_variable_any ended_;
   std::jthread thread_;  ///< must be the last member, because the thread uses the others
@@ -174,8 +181,9 @@ auto with_progress(ProgressKind kind, std::string name, Work work) {
 /// Returns a duration [s], rounded to seconds, as "1:05", or from an hour on as "2:03:04".
 std::string clock_time(double seconds);
 
-/// Returns the contents of a file, or of stdin if its name is "-". Fails with a message if it cannot be read or is
-/// longer than `longest` [bytes]. Named pipes are refused, except those that the shell makes for `<(command)`.
+/// Returns the contents of a file, or of stdin if its name is "-". Fails with a message, without the file's name, if it
+/// cannot be read or is longer than `longest` [bytes]. Named pipes are refused, because a pipe without a writer would
+/// block forever, except those that the shell makes for `<(command)`.
 tl::expected<std::string, std::string> read_input(const std::string& file, std::size_t longest);
 
 /// Returns the name of an input for messages: the file's name, or "stdin".
@@ -189,15 +197,18 @@ io::Result<io::Run> read_run(const std::string& folder, ProgressKind progress);
 bool is_stdout(const std::string& file);
 
 /// Writes to a name that a user gave: a file, a pipe, a device, or the program's own stdout or stderr, whose failures
-/// close_streams() reports.
+/// close_streams() reports. An existing file is replaced, and a link is followed. Fails with a message that names the
+/// file.
 io::Result<> write_output(const std::string& file, const std::string& text);
 
-/// Creates a folder that a user named, with the folders above it. It is no error if it exists.
+/// Creates a folder that a user named, with the folders above it. It is no error if it exists. Fails with a message
+/// that names it, for example if a file of that name exists.
 io::Result<> make_folder(const std::filesystem::path& folder);
 
 /// Writes a file `name` that a command makes from the run in the folder `run`. It is written into the folder `out`,
 /// which is created if necessary, by write_output(); if `out` is empty, into the run's folder. There a symbolic link of
-/// that name is replaced, not followed, because a run folder may come from somebody else.
+/// that name is replaced, not followed, because a run folder may come from somebody else. An existing file is replaced
+/// in both. Fails with a message that names the file, also if the folder could not be created.
 io::Result<> write_product(const std::string& out, const std::string& run, std::string_view name,
                            const std::string& text);
 

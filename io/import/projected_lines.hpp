@@ -11,7 +11,8 @@
 namespace polynya::io {
 
 /// Coordinates in which points are given: those of a coordinate system, turned about its origin by −`turn` and then
-/// shifted by `shift`. Frames in degrees are neither turned nor shifted.
+/// shifted by `shift`. Frames in degrees are neither turned nor shifted. If both flags are false, the coordinates lie
+/// in a plane whose unit is not metres, such as feet.
 struct CoordinateFrame {
   std::string system;           ///< coordinate system: a code, PROJ string or WKT that find_crs() accepts
   bool is_in_degrees = false;   ///< true: coordinates are longitude and latitude [°], longitude first
@@ -30,7 +31,8 @@ CoordinateFrame frame_about(const simulation::GeographicOrigin& origin);
 CoordinateFrame in_degrees();
 
 /// Transforms points from one frame to another, and returns them in their order. A point without an image in the other
-/// system becomes NaN. Fails if GDAL is missing or refuses a system.
+/// system becomes NaN. GDAL is not needed if both frames have the same system; otherwise fails if it is missing or
+/// refuses a system.
 Result<std::vector<geometry::Point>> project(const std::vector<geometry::Point>& points, const CoordinateFrame& from,
                                              const CoordinateFrame& to);
 
@@ -43,23 +45,26 @@ struct ProjectedLine {
 
 // To transform lines: make each with line_in(), call project_vertices(), then add_points(), and take each image_of().
 
-/// Returns a line in the form that project_vertices() expects. A ring does not repeat its first point. In degrees its
-/// longitudes are continuous (no jump of 360° at longitude 180), and a ring around a pole has no seam to the pole.
+/// Returns a line in the form that project_vertices() expects, without images yet. `points` are in `frame`; a ring may
+/// repeat its first point at its end, and the result does not. In degrees its longitudes are made continuous (no jump
+/// of 360° at longitude 180), and the seam of a ring around a pole, along which files lead to the pole and back, is
+/// removed.
 ProjectedLine line_in(const CoordinateFrame& frame, geometry::Ring points, bool is_closed);
 
-/// Computes the image `to` of each point of the lines. Fails if GDAL is missing or refuses a system.
+/// Computes the image `to` of each point of the lines. Fails as project() does; then the images remain as they were.
 Result<> project_vertices(std::vector<ProjectedLine>& lines, const CoordinateFrame& from, const CoordinateFrame& to);
 
-/// Adds points to edges, because the image of a straight edge is curved. Edges are halved until their straight images
-/// are within `tolerance` [m] of the curved ones. A smaller tolerance adds more points; with 0, or if both frames have
-/// the same system, none are added. The added points do not depend on the direction in which an edge is drawn, so two
-/// floes with a common edge keep it. Needs the images of project_vertices(); lines with an image that is NaN get no
-/// points. Fails if GDAL is missing or refuses a system.
+/// Adds points to edges, because the image of a straight edge is curved. Edges are halved, at most 20 times, until
+/// their straight images are within `tolerance` [m] of the curved ones. A smaller tolerance adds more points; with 0,
+/// NaN or a negative one, or if both frames have the same system, none are added. The added points do not depend on the
+/// direction in which an edge is drawn, so two floes with a common edge keep it. Needs the images of
+/// project_vertices(); lines with an image that is NaN get no points. Fails as project() does; then the lines remain as
+/// they were.
 Result<> add_points(std::vector<ProjectedLine>& lines, const CoordinateFrame& from, const CoordinateFrame& to,
                     double tolerance);
 
-/// Returns the image of a line. In a ring, equal neighbouring points are removed; they occur because a pole, which has
-/// every longitude, may be several points in degrees.
+/// Returns the image of a line, in the frame `to`. In a ring, equal neighbouring points are removed, so it may have
+/// less than three points; they occur because a pole, which has every longitude, may be several points in degrees.
 geometry::Ring image_of(const ProjectedLine& line);
 
 }  // namespace polynya::io

@@ -26,9 +26,9 @@ struct FileFloe {
 /// drawn for each floe; if that has none, from the scene.
 class GroupIce {
  public:
-  /// Reads the "ice" of an entry, `group`. The scene's own ice must have been read, because it is the default mean of
-  /// laws. Returns nothing if a law is wrong, which is reported. `path` ("floes[2]") and `item` are the path and the
-  /// JSON of the entry, for messages.
+  /// Reads the "ice" of an entry, `group`; an entry without one gives no property. The scene's own ice must have been
+  /// read, because it is the default mean of laws. Returns nothing if a law is wrong, which is reported. `path`
+  /// ("floes[2]") and `item` are the path and the JSON of the entry, for messages.
   static std::optional<GroupIce> of(const simulation::Scene& scene, const FloeGroup& group, const JsonValue& item,
                                     const std::string& path, ProblemCollector& problems);
 
@@ -47,6 +47,7 @@ class GroupIce {
   std::optional<IceInput> spelled_out(const simulation::Scene& scene, const FloeProperties& given) const;
 
  private:
+  /// The law of one property, and what it gave.
   struct Law {
     std::size_t property = 0;   ///< index in floe_ice_properties()
     fracture::ScatterLaw law;   ///< a number is a constant law
@@ -67,7 +68,8 @@ class FloeListReader {
 
   /// Adds the floes of one entry to the draft. `index` is its index in "floes", `group` the entry as it was read, and
   /// `item` its JSON, for messages. Adds reports on fields, files and ice to the loaded scene. Problems of the entry
-  /// are reported.
+  /// are reported. An entry with a problem may add none or only some of its floes; the caller must then refuse the
+  /// scene.
   void add(std::size_t index, FloeGroup group, const JsonValue& item);
 
   /// Entries of the resolved scene, so far: with all defaults, and with one entry for each floe of a file in place of
@@ -85,8 +87,9 @@ class FloeListReader {
   /// Adds floes that the resolved scene represents by the present entry itself, because it makes the same floes again.
   /// `are_known_valid`: the outlines are valid by construction and need no check.
   void add_all(std::vector<geometry::Polygon> floes, bool are_known_valid);
-  /// Makes a random field, and sets the defaults of `input`. Returns nothing if the field is wrong, which is reported
-  /// at `report`, or if the scene has other problems already, because a large field takes long.
+  /// Makes a random field, and sets the defaults of `input`. Returns nothing if the field is wrong or does not reach
+  /// its concentration, which is reported at `report`, or if the scene has other problems already, because a large
+  /// field takes long.
   std::optional<simulation::FloeFieldOutcome> make_field(FieldInput& input, const ReportAt& report);
   /// Sets the defaults of a channel, and reports keys that exclude each other. Returns true if there is no problem.
   bool check_channel(ChannelInput& channel, const ReportAt& report);
@@ -98,18 +101,24 @@ class FloeListReader {
   void add_fast_ice(const ChannelInput& channel);
   /// Adds fast ice at rest with these outlines.
   void add_fast(std::vector<geometry::Ring> rings, const FloeProperties& ice);
-  /// Reports a floe file in metres of another plane than an earlier file. `offset` is that of its name in the scene.
+  /// Reports a floe file in metres of another plane than an earlier file, because their places relative to each other
+  /// would be wrong. With an origin in the scene, or if the file states no plane, nothing is reported. `offset` is that
+  /// of its name in the scene.
   void check_places(const FileReport& came, std::uint32_t offset);
-  /// Returns the entry by which the resolved scene represents one floe of a file. `is_of_run`: a run wrote the file.
+  /// Returns the entry by which the resolved scene represents one floe of a file, with the polygon of the floe, which
+  /// is moved there. Properties of the floe replace those of the present entry. `is_of_run`: a run wrote the file;
+  /// overlaps of its floes are then accepted, because crushing leaves them.
   FloeGroup spelled_out(FileFloe& floe, bool is_of_run) const;
   /// Adds one floe to the draft, with the motion of `group`. `given` are its own ice properties; its other properties
   /// must already be in `group`.
   void add_floe(const FloeGroup& group, geometry::Polygon polygon, const FloeProperties& given, Origin origin);
-  /// Reports what fast ice must not have, if the entry is fast ice.
+  /// Reports what fast ice must not have, if `is_fast`: a rotation of the entry, and contact.law impulse.
   void check_fast_ice(bool is_fast);
-  /// Returns the index of the ship with this name under whose hull a floe is; −1, and a report, if there is none.
+  /// Returns the index of the ship with this name under whose hull a floe is; −1, and a report at `origin`, if there is
+  /// no such ship or if it has no draught.
   int ship_over(const std::string& name, const Origin& origin);
-  /// Returns true if the scene may have `count` more floes; otherwise reports at `path` that there would be too many.
+  /// Returns true if the scene may have `count` more floes (kMostFloes in all); otherwise reports at `path` that there
+  /// would be too many.
   bool has_room_for(std::size_t count, const std::string& path);
   /// Reports a problem of a member of the present entry, such as "lattice.size_m".
   void report(std::string_view key, std::string found, std::string allowed) const {

@@ -12,9 +12,11 @@ namespace polynya::io {
 class ZipArchive {
  public:
   /// Adds a member after the others. Its name, in UTF-8, has / between folders and does not begin with one. Sizes are
-  /// not checked: the caller must keep the archive below kLargest bytes and 65 536 members.
+  /// not checked: the caller must keep the archive below kLargest bytes and 65 536 members, and each name below 65 536
+  /// bytes. Beyond that, the numbers in the headers wrap around, and the archive is damaged without an error.
   void add(std::string_view name, std::string_view bytes);
-  /// Returns the bytes of the archive with the members added so far.
+  /// Returns the bytes of the archive with the members added so far; without a member, a valid empty archive. More
+  /// members can be added afterwards.
   std::string bytes() const;
 
   /// Largest archive that the format holds without its extension for large files [bytes]: offsets and sizes have 32
@@ -22,8 +24,8 @@ class ZipArchive {
   static constexpr std::uint64_t kLargest = 0xffffffff;
 
  private:
-  std::string members_;    ///< headers and bytes of the members
-  std::string directory_;  ///< one entry per member
+  std::string members_;    ///< headers and bytes of the members: the first part of the archive
+  std::string directory_;  ///< one entry per member, with the position of its header: the second part of the archive
   /// Number of members. The format has 16 bits for it.
   std::uint16_t count_ = 0;
 };

@@ -38,15 +38,16 @@ __all__ += ["FolderError", "NotARunError", "NotAStudyError", "UnfinishedError", 
 __path__.append(_os.path.join(_os.path.dirname(_os.path.dirname(_os.path.dirname(_os.path.abspath(__file__)))),
                               "python_core"))
 
-# Names that __getattr__ takes from the compiled module, and from polynya.errors.
+# Names that __getattr__ takes from the compiled module, and from polynya.errors. A new public name belongs here or into
+# __getattr__, into __all__, and into the imports above; without the first it cannot be used.
 _COMPILED = {"FloeMemory", "Floes", "PilotView", "Scene", "SeenShip", "Ship", "Simulation"}
 _ERRORS = {"FolderError", "NotARunError", "NotAStudyError", "Problem", "SceneError",
            "SimulationError", "UnfinishedError", "VersionError"}
 
 
 def _module(name):
-    """Imports the module with that full name. If a package that it needs is missing, raises ImportError that says how
-    to install it."""
+    """Imports the module with that full name and returns it. If a package that it needs is missing, raises ImportError
+    that says how to install it. Any other ImportError is raised again as it is."""
     import importlib
     try:
         return importlib.import_module(name)
@@ -58,8 +59,9 @@ def _module(name):
 
 
 def _compiled():
-    """Returns the compiled module, after adding the methods of its classes that are written in Python. If it cannot be
-    imported, raises ImportError that says why, for example that it is built for another version of Python."""
+    """Returns the compiled module, after adding the methods of its classes that are written in Python: record and plot
+    of Simulation, and the HTML of notebooks. If it cannot be imported, raises ImportError that says why and what to do,
+    for example that it is built for another version of Python; if numpy is missing, how to install it."""
     import glob
     import sys
     try:
@@ -89,7 +91,7 @@ def _compiled():
 
 def _version():
     """Version of Polynya, such as "1.2.3": the one that CMake wrote beside the compiled module, or in a source tree
-    that is not built, the one in CMakeLists.txt."""
+    that is not built, the one in CMakeLists.txt. Raises OSError if there is neither."""
     try:
         from polynya import _written_version
         return _written_version.VERSION
@@ -100,6 +102,9 @@ def _version():
         return re.search(r"^project\(polynya VERSION ([0-9.]+)", project.read_text(encoding="utf-8"), re.M)[1]
 
 
+# Python calls this function for a name that the package itself does not have. The name is looked up in its module at
+# each use, which takes little time after the first one. Raises ImportError as _module() and _compiled() do, and
+# AttributeError for a name that is not public.
 def __getattr__(name):
     if name in _COMPILED:
         return getattr(_compiled(), name)

@@ -15,11 +15,13 @@ class Cut(typing.NamedTuple):
     #: polygons: lists of numpy rings (n x 2) [m], the outer one first. Rings are open; outer rings run
     #: counter-clockwise, holes clockwise
     pieces: list
-    parts: list  #: "inside" or "outside" the tool, for each piece; always "outside" for a crack
-    ledger: dict  #: of the floe: the balance of its area
+    parts: list  #: "inside" or "outside" the tool, for each piece in the order of `pieces`; for a crack "outside"
+    ledger: dict  #: the polygon's entry in the ledger: the balance of its area, and what was repaired or rounded
 
 
 def _ring(ring):
+    """Returns the x and y of a ring (n x 2 or more columns, open or closed) as a closed list of points for GeoJSON.
+    Raises ValueError if it has another shape, less than three points, or a coordinate that is not finite."""
     points = numpy.asarray(ring, dtype=float)
     if points.ndim != 2 or points.shape[1] < 2 or len(points) < 3:
         raise ValueError(f"a ring is an array of n x 2 numbers, n at least 3, not of shape {points.shape}")
@@ -30,7 +32,9 @@ def _ring(ring):
 
 
 def _geometry(shape):
-    """Returns the GeoJSON of a polygon: of a ring, a list of rings, or an object with __geo_interface__."""
+    """Returns the GeoJSON of a polygon: of a ring, a list of rings, an object with __geo_interface__, or a GeoJSON
+    object itself (Polygon, MultiPolygon, or a Feature with one). Raises ValueError for other types, and TypeError for
+    what is none of these, such as None."""
     given = getattr(shape, "__geo_interface__", shape)
     if isinstance(given, collections.abc.Mapping):
         given = given.get("geometry", given) if given.get("type") == "Feature" else given
@@ -45,6 +49,8 @@ def _geometry(shape):
 
 
 def _numbers(name, values, count):
+    """Returns the `count` numbers of a tool as a list. Raises ValueError, with the tool's name, if they are not so many
+    finite numbers."""
     numbers = numpy.asarray(values, dtype=float)
     if numbers.shape != (count,) or not numpy.isfinite(numbers).all():
         raise ValueError(f"{name} has {count} finite numbers, found {values!r}")
@@ -66,10 +72,11 @@ def cut(polygon, *, disc=None, crack=None, by=None, keep="both", repair=None):
     __geo_interface__. Rings may be open or closed and may run in either direction. Give one tool: disc=(x, y, radius
     [m]), a regular polygon inscribed in the circle (docs/cut.md); crack=(x, y, angle in degrees from the x axis), a
     straight line through a point; by=another polygon. keep: "both", "outside" or "inside", for a disc or polygon; the
-    area of other pieces is removed_m2. A crack keeps all pieces. A polygon that the tool misses stays whole, as an
-    outside piece. repair: "even-odd" or "non-zero", for a polygon that is not valid; without it such a polygon is
-    refused. Tools are not repaired. Returns a Cut. Raises ValueError with the reason if the polygon cannot be cut.
-    """
+    area of other pieces is removed_m2. A crack keeps all pieces, and `keep` is ignored. A polygon that the tool misses
+    stays whole, as an outside piece; with keep="inside" there is then no piece. repair: "even-odd" or "non-zero", for a
+    polygon that is not valid; without it such a polygon is refused. Tools are not repaired. Returns a Cut. Raises
+    ValueError with the reason if the polygon cannot be cut or an argument has a wrong value, and TypeError unless
+    exactly one tool is given."""
     tools = {"disc": disc, "crack": crack, "polygon": by}
     given = [name for name, tool in tools.items() if tool is not None]
     if len(given) != 1:

@@ -9,18 +9,23 @@ import math
 
 from .formulas import KNOT
 
-SPEED = 5 * KNOT  # speed that a ship must keep in the channel [m/s]
-THICKNESS = {"IA": 1.0, "IB": 0.8, "IC": 0.6}  # H_M by class: thickness of the brash in the middle of the channel [m]
+# Speed that a ship must keep in the channel by the rules [m/s]. The coefficients below hold for it alone, so another
+# value would only select other computed points for the comparison.
+SPEED = 5 * KNOT
+# H_M by class: thickness of the brash in the middle of the channel [m]. Thicker brash gives a larger resistance. The
+# table of `polynya performance --channel` has a row of a class for each computed point of this thickness.
+THICKNESS = {"IA": 1.0, "IB": 0.8, "IC": 0.6}
 # The class above IA: the brash of class IA under a frozen layer of 0.1 m. It is not in THICKNESS, because the
 # simulation has no frozen layer to compare with.
 SUPER = "IA Super"
-# Power that the rules require at least, whatever the resistance is [W]. minimum_power() does not apply it.
+# Power that the rules require at least, whatever the resistance is [W]. minimum_power() does not apply it; the text
+# below the table of `polynya performance --channel` states it.
 LEAST_POWER = {SUPER: 2.8e6, "IA": 1e6, "IB": 1e6, "IC": 1e6}
 # K_e by the number of propellers, for fixed pitch, and for controllable pitch or electric drive [kW m / kN^(3/2)]. The
 # required power is proportional to it.
 FACTORS = {"fixed": {1: 2.26, 2: 1.60, 3: 1.31}, "controllable": {1: 2.03, 2: 1.44, 3: 1.18}}
-# Coefficients of the three terms of ChannelResistance: C_3 of the bow [N/m³], C_4 of the midbody [N/m³], and C_5 of the
-# waterplane [N/m]. Each term is proportional to its coefficient.
+# Coefficients of the three terms of ChannelResistance by the rules: C_3 of the bow [N/m³], C_4 of the midbody [N/m³],
+# and C_5 of the waterplane [N/m]. Each term is proportional to its coefficient.
 BOW, SIDE, SPEED_TERM = 845, 42, 825
 
 
@@ -40,14 +45,15 @@ class ChannelResistance:
 
 def displaced_thickness(middle, beam):
     """Returns H_F, the thickness of the brash beside a hull, which has pushed the brash aside [m]. `middle` is H_M, the
-    thickness in the middle of the channel [m], and `beam` that of the hull [m]."""
+    thickness in the middle of the channel [m], and `beam` that of the hull [m]. H_F grows with both."""
     return 0.26 + math.sqrt(middle * beam)
 
 
 def channel_resistance(hull, middle, is_frozen=False):
-    """Returns the terms of R_ch as ChannelResistance. `hull` is a formulas.Hull, whose bow is a wedge, and `middle` is
-    H_M, the thickness of the brash in the middle of the channel [m]. With `is_frozen` the frozen layer of class IA
-    Super is added. The limits of the factors below (0.45, 0, and 5 to 20) are those of the rules."""
+    """Returns the terms of R_ch [N] at 5 knots as ChannelResistance. `hull` is a formulas.Hull, whose bow is a wedge,
+    and `middle` is H_M, the thickness of the brash in the middle of the channel [m]. With `is_frozen` the frozen layer
+    of class IA Super is added. The limits of the factors below (0.45, 0, and 5 to 20) are those of the rules: a hull
+    whose factor is beyond a limit has the resistance of one at the limit."""
     beam, stem, entrance = hull.beam, hull.stem, hull.entrance
     displaced = displaced_thickness(middle, beam)
     flare = math.atan(math.tan(stem) / math.sin(entrance))  # ψ
@@ -73,6 +79,6 @@ def frozen_layer(hull):
 
 def minimum_power(resistance, diameter, propellers, pitch="fixed"):
     """Returns the power that the rules require for a resistance R_ch [N], K_e R_ch^(3/2) / D_P [W]. `diameter` is that
-    of a propeller [m], `propellers` their number (1 to 3) and `pitch` a key of FACTORS. The result may be below
-    LEAST_POWER, which the table of `polynya performance --channel` states below it."""
+    of a propeller [m], `propellers` their number (1 to 3) and `pitch` a key of FACTORS; others raise KeyError. The
+    resistance must not be negative. The result may be below LEAST_POWER, of which the larger one counts."""
     return 1e3 * FACTORS[pitch][propellers] * (1e-3 * resistance) ** 1.5 / diameter

@@ -5,6 +5,7 @@ import json
 import pathlib
 
 #: Largest length of a name [characters]; longer ones are shortened in the middle. Larger: legends take more room.
+#: Smaller: names that differ only in the middle become equal, and get numbers.
 LONGEST = 40
 
 
@@ -21,7 +22,8 @@ def parsed(value):
 
 def leaves(value, path=()):
     """{path: value} of all numbers, texts, truth values, nulls, and empty lists or objects within a JSON value. A path
-    is a tuple of keys and indices; `path` is that of the value itself."""
+    is a tuple of keys and indices; `path` is that of the value itself. A value that is neither an object nor a list is
+    the only leaf."""
     if isinstance(value, dict) and value:
         return {at: leaf for key, item in value.items() for at, leaf in leaves(item, (*path, key)).items()}
     if isinstance(value, list) and value:
@@ -30,7 +32,8 @@ def leaves(value, path=()):
 
 
 def number_in_words(value):
-    """A number with up to six significant digits, a truth value or null as in JSON, and any other value as a text."""
+    """A number with up to six significant digits, a truth value or None as in JSON, and any other value as str() writes
+    it."""
     if isinstance(value, bool) or value is None:
         return json.dumps(value)
     return f"{value:.6g}" if isinstance(value, (int, float)) else str(value)
@@ -43,8 +46,9 @@ UNITS = {"m_per_s": "m/s", "deg": "°", "Pa": "Pa", "N": "N", "Nm": "N m", "J": 
 
 
 def leaf_in_words(path, value):
-    """Describes one member of a value by its key and value: "depth 120 m" for depth_m. A text is its own name, such as
-    "circular" for pattern."""
+    """Describes one member of a value by its key and value: "depth 120 m" for depth_m. The key is the last text of the
+    path; an item of a list also has its index, from 0: "position[1] 20 m". A text that is not empty is its own name,
+    such as "circular" for pattern, and so is a value without a key. Underscores become blanks."""
     words = number_in_words(value) if not isinstance(value, (list, dict)) else json.dumps(value)
     key = next((part for part in reversed(path) if isinstance(part, str)), "")
     if not key or (isinstance(value, str) and value):
@@ -57,7 +61,8 @@ def leaf_in_words(path, value):
 
 
 def short(words, longest=LONGEST):
-    """Replaces the middle of a text by "…" if it has more than `longest` characters. Both ends stay."""
+    """Replaces the middle of a text by "…" if it has more than `longest` characters, so that it has at most so many.
+    Both ends stay, because the differences of paths and lists are often there."""
     if len(words) <= longest:
         return words
     head = (longest - 1) // 2
@@ -68,12 +73,12 @@ def telling_paths(flat):
     """Paths of a few leaves that together distinguish as many of the values as possible. `flat` has the leaves of each
     value. The path that distinguishes most values is chosen first, then that which together with it distinguishes most,
     and so on; so the set is small, but perhaps not the smallest. Among equal paths those with texts are preferred,
-    because they are better names, and then the first ones."""
+    because they are better names, and then the first ones. The list is empty if all values have the same leaves."""
     paths = list(dict.fromkeys(path for leaf in flat for path in leaf))
     differing = [path for path in paths if len({repr(leaf.get(path)) for leaf in flat}) > 1]
     chosen, groups = [], 1
 
-    def count(of):
+    def count(of):  # the number of values that the paths `of` distinguish
         return len({tuple(repr(leaf.get(path)) for path in of) for leaf in flat})
 
     while groups < len(flat):
@@ -100,7 +105,8 @@ def name_of_leaves(flat, chosen):
 def names_of(values):
     """{value: name} of the different values of a parameter, which are cells of a table. If all are numbers or texts, or
     all are lists of these, they are their own names. Otherwise they are named by a few of their members that
-    distinguish them (telling_paths()). Equal names get numbers."""
+    distinguish them (telling_paths()); a single value is named by its texts, or else by its first member. Names are
+    shortened to LONGEST, and equal names then get numbers."""
     different = list(dict.fromkeys(values))
     read = {value: parsed(value) for value in different}
     if not any(isinstance(item, (dict, list)) for item in read.values()):
@@ -117,7 +123,8 @@ def names_of(values):
 
 
 def unique(names):
-    """Adds numbers to names that several values have: "a (1)", "a (2)". `names` is {value: name}."""
+    """Returns {value: name} with numbers after names that several values have: "a (1)", "a (2)". `names` is {value:
+    name}. That a name with its number may equal another name is not checked."""
     count, found = {}, {}
     taken = list(names.values())
     for value, name in names.items():
@@ -129,7 +136,8 @@ def unique(names):
 def names_of_folders(folders):
     """Names of run folders, in their order: as many of their last path components as distinguish them, without final
     components that all share. A/run and B/run become A and B. A name of six digits is that of a study's case, and
-    becomes "case 137". The same folder given twice gets numbers."""
+    becomes "case 137". The same folder given twice gets numbers. For a single folder, or the same one only, a last
+    component "run" is left out. Links are resolved before. `folders` must not be empty."""
     parts = [list(pathlib.Path(folder).resolve().parts) for folder in folders]
     is_told_apart = len(set(map(tuple, parts))) > 1
     while all(len(part) > 2 for part in parts) and len({part[-1] for part in parts}) == 1 and (

@@ -9,8 +9,9 @@ import functools
 import numpy
 from matplotlib.path import Path
 
-# Light ice on medium water, which differ in greyscale; marks use the Okabe–Ito palette [Okabe2008]. Colours as in
-# views/map/final_map.cpp, which draws no channel.
+# Light ice on medium water, which differ in greyscale; marks use the Okabe–Ito palette [Okabe2008], which people with
+# impaired colour vision can distinguish. The colours must be those of views/map/final_map.cpp, which draws no channel,
+# so that final.svg and figures of a run can be compared.
 WATER = "#8fb8d0"
 AT_START = "#a9cadd"  # where ice was at the start; visible where it is open now
 CHANNEL = "#5e93b5"
@@ -24,26 +25,31 @@ WALL = "#8a8a8a"
 TRACK = "#d55e00"
 MARKS = {"bend": "#0072b2", "split": "#d55e00", "grind": "#7a5c2e"}
 
-WHOLE, BROKEN, CAME_UP, UNDER = range(4)  # kinds of floes
-COLOURS = (ICE, BROKEN_ICE, RESURFACED_ICE, ICE_UNDER)
+WHOLE, BROKEN, CAME_UP, UNDER = range(4)  # kinds of floes, as Scenery.kinds() explains them
+COLOURS = (ICE, BROKEN_ICE, RESURFACED_ICE, ICE_UNDER)  # by kind
+# Kinds of events that are marked as fractures: a bend breaks off a cusp, a split divides a floe, grinding removes ice.
 FRACTURES = ("bend", "split", "grind")
-# √area of the smallest floe that is drawn in its shape instead of as a square [px]. Larger values draw faster.
+# √area of the smallest floe that is drawn in its shape instead of as a square [px]. Larger values draw faster, and
+# squares become visible as such; smaller values are slower.
 LEAST_PIXELS = 3.0
 
-NOTHING = Path(numpy.empty((0, 2)), numpy.empty(0, Path.code_type))
+NOTHING = Path(numpy.empty((0, 2)), numpy.empty(0, Path.code_type))  # a path without points
+# Closed ring of a square with sides of 1 and its middle at the origin, which is scaled to the √area of a floe.
 SQUARE = numpy.array([[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5]])
 
 
 @functools.lru_cache(maxsize=None)
 def codes_of(count):
-    """Path codes of a closed ring with this number of points, the last of which repeats the first."""
+    """Path codes of a closed ring with this number of points, the last of which repeats the first. The array is kept
+    and shared by all rings of that length, so it must not be changed."""
     codes = numpy.full(count, Path.LINETO, Path.code_type)
     codes[0], codes[-1] = Path.MOVETO, Path.CLOSEPOLY
     return codes
 
 
 def path_of(rings):
-    """One path of several rings, each n × 2, which it closes: a polygon with its holes, or several polygons."""
+    """One path of several rings, each n × 2, open, which it closes: a polygon with its holes, or several polygons.
+    NOTHING without rings."""
     if not rings:
         return NOTHING
     closed = [numpy.concatenate([ring, ring[:1]]) for ring in rings]
@@ -51,7 +57,8 @@ def path_of(rings):
 
 
 def extent_of(pieces):
-    """Box x0, y0, x1, y1 around points, each n × 2, with a margin [m]."""
+    """Box x0, y0, x1, y1 around points [m], each piece n × 2, with a margin of 2 % of its longer side, but at least 1
+    m. Without points it is that around a square of 100 m, so that an empty map has a scale."""
     points = numpy.concatenate([piece for piece in pieces if len(piece)] or [numpy.array([[0.0, 0.0], [100.0, 100.0]])])
     low, high = points.min(axis=0), points.max(axis=0)
     room = max(1.0, 0.02 * (high - low).max())
@@ -64,15 +71,17 @@ def counted(count, noun):
 
 
 def turned(points, poses):
-    """Transforms points from the body frames with these poses (x, y [m], angle [rad]) to the world."""
+    """Transforms points, n × 2 [m], from the body frames with these poses (x, y [m], angle [rad]), n × 3, one per
+    point, to the world."""
     x, y, angle = poses.T
     c, s = numpy.cos(angle), numpy.sin(angle)
     return numpy.column_stack((x + c * points[:, 0] - s * points[:, 1], y + s * points[:, 0] + c * points[:, 1]))
 
 
 class Outlines:
-    """Outlines of a run's floes in their body frames, stored as closed rings one after the other, with the index of the
-    first point of each floe."""
+    """Outlines of a run's floes in their body frames [m], stored as closed rings one after the other, with the index of
+    the first point of each floe (−1: not loaded). `ids` are arrays of floe ids, `poses` their poses x, y [m], angle
+    [rad], one row each. Methods load outlines that they need and raise FolderError if a shape is damaged."""
 
     def __init__(self, run):
         self._run = run
@@ -98,7 +107,7 @@ class Outlines:
         self._points, self._codes = numpy.concatenate(points), numpy.concatenate(codes)
 
     def forget(self, floes):
-        """Drops the outlines of floes; `floes` is a mask of all floes."""
+        """Drops the outlines of floes to free memory; `floes` is a mask of all floes. They are read again if needed."""
         kept = numpy.flatnonzero((self._first >= 0) & ~floes)
         rows = self._rows(kept)
         self._points, self._codes = self._points[rows], self._codes[rows]
@@ -111,22 +120,24 @@ class Outlines:
         return self._reach[ids]
 
     def count(self, ids):
-        """Number of points in the floes' paths together."""
+        """Number of points in the floes' paths together, with one more per ring that closes it."""
         self.load(ids)
         return int(self._count[ids].sum())
 
     def _rows(self, ids):
+        """Indices in the stored points of all points of floes that are loaded, one floe after the other."""
         counts = self._count[ids]
         return numpy.arange(counts.sum()) + numpy.repeat(self._first[ids] - (numpy.cumsum(counts) - counts), counts)
 
     def boxes(self, ids, poses):
-        """Lower left and upper right corners of the floes in the world, each n × 2."""
+        """Lower left and upper right corners of the boxes around the floes in the world, each n × 2 [m]. There must be
+        at least one floe."""
         points = self.path(ids, poses).vertices
         first = numpy.cumsum(self._count[ids]) - self._count[ids]
         return numpy.minimum.reduceat(points, first), numpy.maximum.reduceat(points, first)
 
     def path(self, ids, poses):
-        """The floes in the world as one path."""
+        """The floes in the world as one path [m], in the order of the ids; NOTHING without floes."""
         if len(ids) == 0:
             return NOTHING
         self.load(ids)
@@ -135,14 +146,15 @@ class Outlines:
 
 
 def joined(one, other):
-    """Joins two paths."""
+    """One path with the points of two; if one of them is empty, the other one itself."""
     if len(one.vertices) == 0 or len(other.vertices) == 0:
         return one if len(other.vertices) == 0 else other
     return Path(numpy.concatenate((one.vertices, other.vertices)), numpy.concatenate((one.codes, other.codes)))
 
 
 class Scenery:
-    """Floes, hulls, tracks and fractures of a run, prepared for drawing at any of its times."""
+    """Floes, hulls, tracks and fractures of a run (results.run.Run), prepared for drawing at any of its times. `frame`
+    is one of Run.frame(), `window` a box x0, y0, x1, y1 in the world [m]. All paths and points are in the world [m]."""
 
     def __init__(self, run):
         self.run = run
@@ -155,14 +167,14 @@ class Scenery:
 
     def kinds(self, frame):
         """For each floe of a frame: WHOLE (not broken since the start), BROKEN, CAME_UP (broken, and it or a floe from
-        which it broke came up from under a hull) or UNDER (under a hull now)."""
+        which it broke came up from under a hull) or UNDER (under a hull now, which counts before all others)."""
         births, ids = self.run.births, frame.ids
         kinds = numpy.where(births["generation"][ids] == 0, WHOLE, numpy.where(births["came_up"][ids], CAME_UP, BROKEN))
         kinds[frame.is_under] = UNDER
         return kinds
 
     def seen(self, frame, window):
-        """Mask of the floes of a frame that extend into x0, y0, x1, y1 [m]; all floes without a window."""
+        """Mask of the floes of a frame whose boxes extend into the window; all floes without a window (None)."""
         if window is None:
             return numpy.ones(len(frame.ids), dtype=bool)
         corners, ids, poses = numpy.reshape(window, (2, 2)), frame.ids, frame.poses
@@ -176,20 +188,23 @@ class Scenery:
         return shown
 
     def floes(self, frame, window=None, least=0.0, among=None):
-        """Floes as one path for each kind. `among` is a mask of the floes to draw; only those that extend into the
-        window are. Floes with √area below `least` [m] are squares of their area."""
+        """Floes as a list of one path for each kind, NOTHING for a kind without floes. `among` is a mask of the frame's
+        floes to draw, None means all; only those that extend into the window are drawn. Floes with √area below `least`
+        [m] are squares of their area."""
         kinds = self.kinds(frame)
         shown = self.seen(frame, window) if among is None else self.seen(frame, window) & among
         return [self._path(frame.ids[shown & (kinds == kind)], frame.poses[shown & (kinds == kind)], least)
                 for kind in range(4)]
 
     def _path(self, ids, poses, least):
+        """One path of floes in the world [m]: shapes, then squares for those with √area below `least` [m]."""
         side = numpy.sqrt(self.run.births["area_m2"][ids])
         is_small = side < least
         return joined(self.outlines.path(ids[~is_small], poses[~is_small]),
                       self._squares(ids[is_small], poses[is_small], side[is_small]))
 
     def _squares(self, ids, poses, sides):
+        """One path of squares with these sides [m], in place of the floes: at their centroids and turned with them."""
         if len(ids) == 0:
             return NOTHING
         in_body = self.run.centroids[ids][:, None] + sides[:, None, None] * SQUARE
@@ -197,11 +212,11 @@ class Scenery:
                     numpy.tile(codes_of(len(SQUARE)), len(ids)))
 
     def forget(self, time):
-        """Drops the outlines of floes that broke before a time [s]."""
+        """Drops the outlines of floes that ended before a time [s] or at it, for pictures of later times."""
         self.outlines.forget(self.run.births["died_s"] <= time)
 
     def ice_at_start(self, window=None, least=0.0):
-        """The ice at the start as one path."""
+        """The ice at the start as one path. `window` and `least` as for floes()."""
         frame = self.run.frame(self.run.start_time)
         seen = self.seen(frame, window)
         return self._path(frame.ids[seen], frame.poses[seen], least)
@@ -218,7 +233,8 @@ class Scenery:
         return numpy.array([self.run.motions.ships_at(time)[:, :2] for time in self.run.times])
 
     def tracks(self, time):
-        """Tracks of ships, and of structures that moved, up to a time [s], each n × 2."""
+        """Tracks of ships and structures that moved, up to a time [s], each n × 2 with a point per frame. A body that
+        has not moved has none; without frames there are none."""
         if len(self.run.times) == 0:
             return []
         here = self.run.motions.ships_at(time)[None, :, :2]
@@ -228,16 +244,19 @@ class Scenery:
                 and numpy.ptp(places[:, i], axis=0).max() > 0]
 
     def fractures(self, kind, start, end):
-        """Positions of fractures of a kind after `start` [s] and up to `end` [s], n × 2, and their age at `end`."""
+        """Positions of fractures of a kind (one of FRACTURES) after `start` [s] and up to `end` [s], n × 2, and their
+        age at `end` [s]."""
         among = (self._fracture_kinds == kind) & (self._fracture_times > start) & (self._fracture_times <= end)
         return self._fracture_points[among], end - self._fracture_times[among]
 
     def points(self, frame):
-        """Points that determine the extent of a map at a time: ice, hulls, walls and tracks, each n × 2."""
+        """Points that determine the extent of a map at the time of a frame, as a list: ice, hulls, walls and tracks,
+        each n × 2, perhaps empty."""
         return [*(path.vertices for path in (*self.floes(frame), *self.hulls(frame))), *self.tracks(frame.time)]
 
     @functools.cached_property
     def extent(self):
-        """Extent of ice and hulls at the start and end and of all tracks: x0, y0, x1, y1 [m]."""
+        """Extent of ice and hulls at the start and end and of all tracks, with the margin of extent_of(): x0, y0, x1,
+        y1 [m]."""
         return extent_of([points for time in (self.run.start_time, self.run.end_time)
                           for points in self.points(self.run.frame(time))])

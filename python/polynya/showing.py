@@ -11,15 +11,19 @@ import io
 import numpy
 
 # Largest number of floes for which a scene or a simulation is shown with a map; runs have one up to three times as many
-# floes, with those that broke. Above it a notebook shows only the text, because drawing would take too long.
+# floes, with those that broke. Above it a notebook shows only the text, because drawing would take too long. With a
+# larger value a cell with such a scene takes longer.
 MOST_FLOES = 100_000
-MOST_ROWS = 20  # number of rows of a study's table that are shown
+# Number of rows of a study's table that are shown. More rows make the cell of a notebook higher; the text below states
+# how many are left out.
+MOST_ROWS = 20
 
 
 def floes_by_kind(simulation):
-    """Floes of a simulation at the present time as one path for each kind, in the order of Scenery.floes(). The path of
-    floes that came up from under a hull is empty: they are with the broken ones, because Simulation.floes does not tell
-    them apart."""
+    """Floes of a simulation at the present time as one path for each kind in the world [m], in the order of
+    Scenery.floes(): whole, broken, came up, under a hull. A kind without floes has an empty path. The path of floes
+    that came up from under a hull is empty: they are with the broken ones, because Simulation.floes does not tell them
+    apart."""
     from . import scenery
     floes = simulation.floes
     rings = numpy.split(floes.world_vertices, floes.ring_offsets[1:-1]) if len(floes) else []
@@ -30,7 +34,8 @@ def floes_by_kind(simulation):
 
 
 def hulls_of(simulation):
-    """Outlines of a simulation's ships and structures as one path, and of its walls as another, in the world [m]."""
+    """Outlines of a simulation's ships and structures at the present time as one path, and of its walls as another, in
+    the world [m]. Without such bodies a path is empty."""
     from .results.hulls import waterline
     from .scenery import path_of, turned
     scene = simulation.scene.resolved
@@ -44,7 +49,8 @@ def hulls_of(simulation):
 
 def draw(axes, floes, hulls, tracks=()):
     """Draws paths in the world [m] from above, in equal scale along both axes, which it fits to them. `floes` has a
-    path for each kind of floe, `hulls` those of ships and of walls, `tracks` arrays of n × 2. Returns the axes."""
+    path for each kind of floe, `hulls` those of ships and of walls, `tracks` arrays of n × 2 [m]. Ice under hulls is
+    drawn over them, half transparent. Returns the axes."""
     from matplotlib.patches import PathPatch
 
     from . import scenery
@@ -68,7 +74,8 @@ def plot(self, axes=None):
     """plot(axes=None)
 
     Draws ice and hulls at the present time from above, with matplotlib, into these axes or into those of a new figure.
-    Returns the axes."""
+    Returns the axes. Coordinates are in the world [m]. Raises ImportError if matplotlib is missing. All floes are
+    drawn, however many there are."""
     if axes is None:
         from matplotlib import pyplot
         axes = pyplot.figure(figsize=(7, 4.5), layout="constrained").add_subplot()
@@ -77,7 +84,8 @@ def plot(self, axes=None):
 
 
 def image(fill):
-    """An HTML element with a PNG of axes, which the function `fill(axes)` draws; empty if matplotlib is missing."""
+    """An HTML element with a PNG of axes, which the function `fill(axes)` draws; "" if matplotlib is missing. Errors of
+    `fill` are raised again."""
     try:
         from matplotlib.figure import Figure
     except ImportError:
@@ -99,19 +107,20 @@ def page(title, rows, picture=""):
 
 
 def html_of_simulation(self):
+    """The simulation at the present time, with the map unless it has more than MOST_FLOES floes."""
     picture = image(lambda axes: plot(self, axes)) if len(self.floes) <= MOST_FLOES else ""
     return page(f"{self.scene.name}, {self.time:.6g} s", contents_of(self), picture)
 
 
 def contents_of(simulation):
-    """Rows (name, value) with the numbers of floes and the names of the bodies."""
+    """Rows (name, value) with the present number of floes and the names of the bodies."""
     names = ", ".join(ship.name for ship in simulation.ships)
     return [("floes", len(simulation.floes)), ("ships, structures, walls", names)]
 
 
 def html_of_scene(self):
-    """The scene at its start, with its warnings and hints; for a wrong scene only its problems. It makes a simulation
-    for the map."""
+    """The scene at its start, with its warnings and hints; for a wrong scene only its problems, errors or not. It makes
+    a simulation for the map, which takes time in a scene with many floes."""
     from . import Simulation
     problems = [("", problem) for problem in self.validate()]
     if any(problem.severity == "error" for _, problem in problems):
@@ -124,7 +133,9 @@ def html_of_scene(self):
 
 
 def html_of_run(self):
-    """The run at its end, with tracks, numbers of fractures, peaks of the surge force and warnings."""
+    """The run at its end, with tracks, numbers of fractures, largest surge forces of the ice by ship, those that are
+    not 0, and warnings. Numbers that summary.json lacks are shown as None, because also an unfinished run has a
+    page."""
     def fill(axes):
         from .scenery import Scenery
         scenery, frame = Scenery(self), self.frame(self.end_time)
@@ -144,7 +155,8 @@ def html_of_run(self):
 
 
 def html_of_study(self):
-    """The first MOST_ROWS cases of a study: the number of the case, the parameters and the first six measures."""
+    """The first MOST_ROWS cases of a study: the number of the case, the parameters and the first six measures, because
+    more columns would not fit. Reads the table once."""
     table = self.table
     names = list(table.columns if hasattr(table, "columns") else table.dtype.names)
     columns = [names[0], *self.parameters, *[name for name in self.measures if name in names][:6]]
@@ -158,5 +170,5 @@ def html_of_study(self):
 
 
 def value_of(value):
-    """A cell of the table as text, floats with five digits."""
+    """A cell of the table as text, floats with five significant digits (NaN as nan)."""
     return f"{value:.5g}" if isinstance(value, float) else str(value)

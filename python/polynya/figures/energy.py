@@ -8,7 +8,8 @@ from .page import POINT, Page, Sheet, in_words, plain
 from .subjects import all_labelled, colour_of
 
 # Keys of `energy` without their ending _J, and the words of the figure: the sources, then the sinks, in the order in
-# which the figure shows them. Sources and sinks have the same sum.
+# which the figure shows them. Sources and sinks have the same sum, because "imbalance" is the difference of the others.
+# A key without words here is shown with its own name as a sink.
 SOURCES = {"initial": "motion at the start", "thrust": "thrust and holding", "current": "current",
            "wind": "wind", "walls": "loads of walls", "initial_stored": "in moorings at the start",
            "mooring_ground": "moorings: work of the ground", "mooring_separation": "moorings: overlaps pushed apart",
@@ -34,7 +35,7 @@ SINKS = {
 def terms_of(runs):
     """Returns the sources and the sinks of some runs in order, each as (name, a value [J] per run, None if the run does
     not have the term). A term that is neither in SOURCES nor in SINKS is a sink with its key as its name. `turnover_J`
-    is left out, because it is the scale of the imbalance and no term."""
+    is left out, because it is the scale of the imbalance and no term. Both lists are empty if no run has energies."""
     energies = [run.run.summary.get("energy") or {} for run in runs]
     keys = dict.fromkeys(key[:-2] for energy in energies for key in energy if key.endswith("_J")
                          and key != "turnover_J")
@@ -46,7 +47,7 @@ def terms_of(runs):
 
 def draw(runs, page=Page()):
     """Draws two panels of bars, sources above sinks, with a bar for each run, and returns the matplotlib figure, or
-    None if no run has energies. Terms that are 0 in every run are named in a note instead."""
+    None if no run has energies. Terms that are 0 or missing in every run are named in a note instead."""
     runs = all_labelled(runs)
     sources, sinks = terms_of(runs)
     if not sources and not sinks:
@@ -76,9 +77,10 @@ def draw(runs, page=Page()):
 
 
 def draw_bars(axes, terms, factor, bar, pitch, page):
-    """Draws the bars of a panel in `axes`, and returns the texts of their numbers. Values are in joules, and their
-    scale in units of `factor` joules. `bar` is the height of a bar with its gap, `pitch` the distance of terms; the
-    vertical axis is in millimetres, so that bars of both panels are equally high."""
+    """Draws the bars of a panel in `axes`, and returns the texts of their numbers. `terms` are those of terms_of(); a
+    value that is None has no bar. Values are in joules, and their scale in units of `factor` joules. `bar` is the
+    height of a bar with its gap and `pitch` the distance of terms, both in millimetres, as is the vertical axis, so
+    that bars of both panels are equally high. The number of a negative bar is to the right of zero."""
     numbers = []
     for k, (_, values) in enumerate(terms):
         for i, value in enumerate(values):

@@ -9,14 +9,15 @@ import numpy
 
 
 def unit(degrees):
-    """Unit vector of a direction [deg]."""
+    """Unit vector of a direction, counter-clockwise from the x axis [deg]."""
     angle = math.radians(degrees)
     return numpy.array([math.cos(angle), math.sin(angle)])
 
 
 def by_rows(rows, time):
-    """Velocity from the rows of a drift or wind table at a time [s], as a vector [m/s]. The vector is interpolated
-    linearly between rows; before the first and after the last row it is that of the row."""
+    """Velocity from the rows of a drift or wind table, which has one or more in ascending order of time, at a time [s],
+    as a vector [m/s]. Both components are interpolated linearly between rows; before the first row the velocity is that
+    of the first, after the last row that of the last."""
     times = [row["t_s"] for row in rows]
     velocities = numpy.array([row["speed_m_per_s"] * unit(row["direction_deg"]) for row in rows])
     return numpy.array([numpy.interp(time, times, velocities[:, k]) for k in (0, 1)])
@@ -33,8 +34,9 @@ def tide(ellipse, time):
 
 def free_drift(scene, time):
     """Velocity of free ice over ground at a time [s], as a vector [m/s]: that of the water, plus the velocity through
-    the water at which the drag of the wind and that of the water are equal. Without drag of the water
-    (skin_drag_coefficient 0) the wind is ignored."""
+    the water at which the drag of the wind and that of the water are equal. A table of the scene replaces the constant
+    velocity (`drift_table` that of the water, `table` that of the wind), and a tide is added. Without drag of the water
+    (skin_drag_coefficient 0) the wind is ignored, because the velocity would be infinite."""
     water, wind = scene["water"], scene["wind"]
     rows = water.get("drift_table")
     velocity = by_rows(rows, time) if rows else numpy.array(water["drift_m_per_s"], dtype=float)

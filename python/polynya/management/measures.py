@@ -10,14 +10,16 @@ from .encounters import beyond_gate, encounters_of
 from .gates import gates_of, managed_width, managing, passages
 
 # Quantiles of loads over time that are measured [-]. The names of the measures contain them: 0.99 makes ice_load_q99_N.
+# Another value renames a column of the tables, and rankings by it (study.MEASURES) no longer find it.
 LEVELS = (0.5, 0.9, 0.99)
 
 
 def hits_on(run, gates):
-    """Contacts of the body with floes of at least the size `gates.size`, at the recorded frames. A contact that
-    continues from frame to frame counts once. Returns the size √area of the floe of each contact [m], the number of
-    contacts, and the time with any contact [s], which is the number of such frames times their interval. Returns None
-    if contacts were not recorded."""
+    """Contacts of the body with floes of at least the size `gates.size`, from the rows of contacts.csv. A row at a peak
+    between two frames counts at the later frame, so a contact between frames without a recorded peak is missed. A
+    contact that continues from frame to frame counts once. Returns the size √area of the floe of each contact [m], in
+    no order, the number of contacts, and the time with any contact [s], which is the number of such frames times their
+    interval. Returns None if the scene records no contacts. `run` is a results.run.Run, `gates` a gates.Gates."""
     if run.scene["record"]["contacts"] == "none":
         return None
     contacts, births = run._table("contacts.csv", ""), run.births
@@ -27,6 +29,7 @@ def hits_on(run, gates):
     is_body = ((ships == gates.body) & (by_floe >= 0)) | ((by_ship == gates.body) & (floes >= 0))
     is_body &= times > gates.start
     touched = numpy.where(ships[is_body] == gates.body, by_floe[is_body], floes[is_body]).astype(int)
+    # A time between two frames counts at the later one; 1e-6 s are for times that files round differently.
     touches = set(zip(touched.tolist(), numpy.searchsorted(run.times, times[is_body] - 1e-6).tolist()))
     touches = {(floe, frame) for floe, frame in touches if births["area_m2"][floe] >= gates.size**2}
     begun = [(floe, frame) for floe, frame in touches if (floe, frame - 1) not in touches]
@@ -43,7 +46,8 @@ def largest_touch(run, gates):
 
 
 def rows_of(run, ship, start=0.0):
-    """Columns of forces.csv with only the rows of a ship or structure after a time [s]."""
+    """Columns of forces.csv, as {name: array}, with only the rows of a ship or structure after a time [s]. The arrays
+    are empty if there is no such row, for example if there is no body of this name."""
     columns = run.force_columns
     kept = (columns["ship"] == ship) & (columns["t_s"] > start)
     return {name: values[kept] for name, values in columns.items()}
@@ -52,7 +56,7 @@ def rows_of(run, ship, start=0.0):
 def loads_on(run, gates):
     """Magnitudes of the horizontal loads on the body [N], one per row of forces.csv, of which each is the mean of an
     interval. Returns {"ice_load": array}, and "mooring_load" too if the body has a mooring. The load of the ice
-    includes the force of the ice under the hull."""
+    includes the force of the ice under the hull. Only rows after gates.start count."""
     rows = rows_of(run, gates.body, gates.start)
     ice = numpy.hypot(*(rows[f"{along}_N"] + rows[f"{along}_from_submerged_ice_N"] for along in ("surge", "sway")))
     mooring = numpy.hypot(rows["surge_from_mooring_N"], rows["sway_from_mooring_N"])
@@ -60,6 +64,8 @@ def loads_on(run, gates):
 
 
 def is_moored(scene, body):
+    """Returns True if the body is a ship with a mooring in the scene, also if it breaks in the run. A structure has
+    none."""
     return any(ship["name"] == body and ship.get("mooring") for ship in scene["ships"])
 
 
@@ -74,7 +80,8 @@ def broken_moorings(run, body):
 
 def effort(run, start=0.0):
     """For each ship that manages ice, after the time `start` [s]: the distance sailed [m] and the energy that its
-    engine delivered [J], both as sums over rows of forces.csv of the value of a row times its interval."""
+    engine delivered [J], both as sums over rows of forces.csv of the value of a row times its interval. Returns {ship:
+    {"distance_m", "energy_J"}}, empty without such a ship."""
     found = {}
     for ship in managing(run.scene):
         rows = rows_of(run, ship)
@@ -88,16 +95,18 @@ def effort(run, start=0.0):
 
 
 def ice_lost(ledger):
-    """Area of the ice that left the scene in the whole run [m²], and its fraction of all initial ice [-]. `ledger` is
-    that of summary.json. Ice leaves as cusps that are removed, as pieces below the size limit with rims and slivers,
-    and as ice that found no room to surface. If it is not small, the loads and sizes at the body are too low."""
+    """Area of the ice that left the scene in the whole run [m²], and its fraction of all initial ice [-], 0 without
+    initial ice. `ledger` is that of summary.json. Ice leaves as cusps that are removed, as pieces below the size limit
+    with rims and slivers, and as ice that found no room to surface. If it is not small, the loads and sizes at the body
+    are too low."""
     area = sum(ledger[f"{place}_area_m2"] for place in ("submerged", "brash", "under_ice"))
     return area, area / ledger["initial_ice_area_m2"] if ledger["initial_ice_area_m2"] > 0 else 0.0
 
 
 def ice_measures(run, gates):
     """Measures of the ice that passed the gate upstream and the gate at the body: numbers of floes, fractions of cover,
-    sizes √area [m], and the width around the body in which no large floe passed [m]."""
+    sizes √area [m], of which the mean is weighted by area, and the width around the body in which no floe of gates.size
+    or more passed [m]. Sizes are None if no floe passed."""
     found, (before, after) = {}, passages(run, gates)
     for name, passage, cover in zip(("upstream", "at_body"), (before, after), covers(run, gates)):
         found[f"floes_{name}"] = len(passage.areas)
@@ -110,7 +119,9 @@ def ice_measures(run, gates):
 
 def load_measures(run, gates):
     """Measures of the loads on the body by ice and mooring [N]: mean, largest value and quantiles of the rows of
-    forces.csv, and the number of broken moorings. Those of a mooring are None if the body has none."""
+    forces.csv, and the number of broken moorings. Those of a mooring are None if the body has none; all loads are None
+    if forces.csv has no row of the body after gates.start. Each row is a mean over an interval, so a peak within it is
+    larger."""
     loads, found = loads_on(run, gates), {}
     for name in ("ice_load", "mooring_load"):
         of = loads.get(name, ())
@@ -124,8 +135,9 @@ def load_measures(run, gates):
 
 def ship_measures(run, gates):
     """Measures of the ships that manage ice: number, distance [m], energy [J], and time beyond the upstream gate [s].
-    Measures of encounters of the body with any other ship in the whole run: number of contacts, largest load [N] and
-    smallest distance [m], None if there is no other ship."""
+    Measures of encounters of the body with any other ship in the whole run, also before gates.start: number of
+    contacts, largest load [N] and smallest distance [m], None if there is no other ship. Without a managing ship the
+    first three are 0."""
     ships, met = effort(run, gates.start).values(), encounters_of(run, gates.body)
     return {"icebreakers": len(ships),
             "icebreaker_distance_m": sum(ship["distance_m"] for ship in ships),
@@ -138,7 +150,8 @@ def ship_measures(run, gates):
 
 def measures_of(run, given):
     """All measures by name, with the prefix management_ of the table's columns; None if there is no value. `given` is
-    `collect.management` of a study, which may state the body and the gates."""
+    `collect.management` of a study, which may state the body and the gates. Raises InputError if they can be neither
+    found in it nor derived (gates.gates_of()), and FolderError if a file of the run is missing or damaged."""
     gates = gates_of(run, given)
     found = ice_measures(run, gates)
     hits = hits_on(run, gates)

@@ -1,7 +1,8 @@
 """Reads a study of ice management and ranks its patterns, separately for each of the conditions that it varies.
 
 The parameters of the study have different roles. Some define patterns, which are ranked, such as the pilot of the
-icebreaker. Seeds define fields of ice, over which means are taken. The rest, such as the drift, define conditions."""
+icebreaker. Seeds define fields of ice, over which means are taken. The rest, such as the drift, define conditions.
+Values of parameters are compared as texts, as they are in the table; objects and lists are JSON."""
 import dataclasses
 import json
 import math
@@ -10,7 +11,8 @@ from ..errors import InputError
 from ..naming import leaf_in_words, names_of, parsed
 from . import cautions, ranking
 
-PREFIX = "management_"  # of the names of all measures of ice management in a study's table
+# Beginning of the names of all measures of ice management in a study's table, as measures.measures_of() makes them.
+PREFIX = "management_"
 UNMANAGED = "not managed"  # name of the pattern without a managing ship, with which the others are compared
 # Measures by which patterns are ranked, with their meanings and units; smaller is better. A measure that the study does
 # not have is left out.
@@ -30,8 +32,8 @@ class Condition:
 
     name: str  #: values of the parameters that define it, in words; empty if there are none
     x: float  #: value of the parameter on the x axis of figures; 0 if there is none
-    values: dict  #: measure -> pattern -> {field: value}
-    lost: dict  #: pattern -> {field: (area of ice that left the scene [m²], its fraction of all ice)}
+    values: dict  #: measure -> pattern -> {field: value}, in the unit of the measure; a field is a tuple of seeds
+    lost: dict  #: pattern -> {field: (area of ice that left the scene [m²], its fraction of all ice [-])}
 
     def ranked(self, measure):
         """Returns the patterns ranked by a measure, as a list of ranking.Place. The list is empty if the measure is 0
@@ -49,12 +51,12 @@ class Found:
     name: str  #: name of the study
     finished: int  #: number of finished cases
     cases: int  #: number of all cases
-    by: list  #: parameters that define patterns
-    against: str  #: parameter of the x axis; empty if there is none
-    conditions: list  #: list of Condition in ascending order of `x`
+    by: list  #: names of the parameters that define patterns
+    against: str  #: name of the parameter of the x axis; empty if there is none
+    conditions: list  #: list of Condition in ascending order of `x`; one if only patterns and seeds vary
     patterns: list  #: names of patterns in the order of the study
-    measures: list  #: names of all measures of ice management in the table
-    body: str  #: name of the protected body, for messages
+    measures: list  #: names of all measures of ice management in the table that are numbers, with PREFIX
+    body: str  #: name of the protected body, for messages; "the protected body" if the study does not state it
 
 
 # Returns the different values of a column as texts, in the order of the table.
@@ -62,13 +64,14 @@ def different(table, name):
     return list(dict.fromkeys(str(value) for value in table[name]))
 
 
+# Returns True if a cell of the table is a number. Truth values, texts, lists and objects are none.
 def is_number(value):
     return isinstance(parsed(value), (int, float)) and not isinstance(parsed(value), bool)
 
 
 def follows(table, name, others):
     """Returns True if a parameter has only one value for each combination of the `others`, because it was set together
-    with them (`paired` of a study). It then defines no condition of its own."""
+    with them (`paired` of a study). It then defines no condition of its own. `others` are names of parameters."""
     values = {}
     for row in table:
         key = tuple(str(row[other]) for other in others)
@@ -83,7 +86,8 @@ def roles_of(plan, parameters, table):
     by: those that define patterns: report.group_by of the study, otherwise those whose values are objects, such as
     pilots, otherwise the first one. rest: the others, which define conditions. against: one of the rest for the x axis:
     report.against, otherwise one whose name contains "drift", otherwise the first one with only numbers; empty if there
-    is none. Raises InputError if only seeds are varied."""
+    is none. A parameter of `by`, or one that follows from them, cannot be on the x axis; then the last of these rules
+    holds. Raises InputError if only seeds are varied, or if report.against has values that are no numbers (x_of())."""
     asked = plan.get("report", {})
     varied = [name for name in parameters if name not in SEEDS and len(different(table, name)) > 1]
     if not varied:
@@ -103,7 +107,8 @@ def roles_of(plan, parameters, table):
 
 def x_of(against, value):
     """Returns a number for a value of the parameter `against` on the x axis: the magnitude of a list of numbers, such
-    as a velocity, and the absolute value of a drift. None if the value is neither a number nor such a list."""
+    as a velocity, and the absolute value of a drift, because the direction does not matter there. It is in the unit of
+    the parameter. None if the value is neither a number nor such a list."""
     value = parsed(value)
     if isinstance(value, list) and value and all(isinstance(part, (int, float)) for part in value):
         return math.hypot(*value)
@@ -124,8 +129,8 @@ def path_of(name):
 
 
 def value_in_words(name, value):
-    """Returns a text such as "drift 0.5 m/s" for a number, with the unit of the path `name`; other values as they
-    are."""
+    """Returns a text such as "drift 0.5 m/s" for a number, with the unit of the path `name`; a drift has no sign. Other
+    values are returned as they are."""
     if not is_number(value):
         return str(value)
     keys = [part for part in path_of(name) if not part.isdigit()]
@@ -145,8 +150,9 @@ def names_of_values(values):
 
 
 def pattern_names(table, by):
-    """Returns {values of the parameters `by`: name} of the patterns. Names are formed from the differences; a pattern
-    without a managing ship is named UNMANAGED, unless no pattern has one."""
+    """Returns {values of the parameters `by`: name} of the patterns, where the values are a tuple of texts. Names are
+    formed from the differences; a pattern without a managing ship is named UNMANAGED, unless no pattern has one.
+    Without the measure of icebreakers in the table, each pattern counts as managed."""
     names = {name: names_of_values([str(value) for value in table[name]]) for name in by}
     found = {}
     for row in table:
@@ -162,7 +168,8 @@ def pattern_names(table, by):
 
 
 # Returns the conditions of the finished cases `rows`, in ascending order of x. A measure that is NaN in a case is left
-# out. For `by`, `against` and `rest` see roles_of(); `patterns` are the names of pattern_names().
+# out. Of two cases with the same condition, pattern and field the later one counts; patterns with the same name are one
+# pattern. For `by`, `against` and `rest` see roles_of(); `patterns` are the names of pattern_names().
 def conditions_of(rows, by, against, rest, patterns, measures):
     found = {}
     for row in rows:
@@ -181,8 +188,8 @@ def conditions_of(rows, by, against, rest, patterns, measures):
     return sorted(found.values(), key=lambda condition: condition.x)
 
 
-# Reads a gathered study as Found. Unfinished cases are left out. Raises InputError if no case is finished, or if the
-# study has no measures of ice management.
+# Reads a gathered study as Found. Unfinished cases are left out. Raises InputError if no case is finished, if the study
+# has no measures of ice management or varies nothing but seeds, and FolderError if the folder is no gathered study.
 def read(folder):
     from ..results.study import Study
 
@@ -204,7 +211,9 @@ def read(folder):
 
 
 def in_json(found):
-    """Returns a Found as JSON: for each condition its contacts, its rankings, and the means of all measures."""
+    """Returns a Found as JSON for other programs: for each condition its contacts, its rankings by each of MEASURES
+    that the study has, and the means of all measures by pattern. A mean without values is null. The keys are part of
+    the interface of `polynya management`."""
     def of(mean):
         return None if mean is None else dataclasses.asdict(mean)
 

@@ -33,7 +33,8 @@ class Stopped(Exception):
 
 def size(text):
     """Reads width and height of a picture [px] from a text such as 1280x720. Both must be even, because MP4 requires
-    it, and from 320 to 7680. Raises ArgumentTypeError with what is allowed."""
+    it, and from 320 to 7680. Below 320 the text, of 0.02 of the height, could not be read; 7680 is the width of 8K, and
+    a larger picture would mostly take time and memory. Raises ArgumentTypeError with what is allowed."""
     parts = text.lower().split("x")
     values = [int(part) for part in parts if part.isdigit()]
     if len(parts) != 2 or len(values) != 2 or not all(320 <= value <= 7680 and value % 2 == 0 for value in values):
@@ -42,7 +43,8 @@ def size(text):
     return tuple(values)
 
 
-# Returns a file name unchanged if its suffix is .mp4, .gif or .png; otherwise raises ArgumentTypeError.
+# Returns a file name unchanged if its suffix is .mp4, .gif or .png, in small or capital letters; otherwise raises
+# ArgumentTypeError.
 def film_name(text):
     from .film import SUFFIXES
 
@@ -51,6 +53,7 @@ def film_name(text):
     return text
 
 
+# Returns the parser of the command's options. Times are in simulated seconds, from the start of the simulation.
 def command_line():
     seconds = number(0, unit="s")
     parser = Parser("polynya movie", "Make a film of a run: the ice, and the force on the ship", EXAMPLES, REST)
@@ -71,17 +74,20 @@ def command_line():
     return parser
 
 
+# Prints a message with the command's name on stderr, and returns the code.
 def fail(code, message):
     return fail_command("polynya movie", message, code)
 
 
 class Progress:
     """Shows progress on stderr: one line on a terminal, which is overwritten, otherwise a line every ten seconds. It is
-    called with the number of completed pictures and their total."""
+    called with the number of completed pictures, at least 1, and their total. The remaining time is at the mean rate so
+    far."""
 
     def __init__(self):
         self._start = self._shown = time.monotonic()
-        self._least = 0.1 if sys.stderr.isatty() else 10.0  # time between two reports [s]
+        # Time between two reports [s]. Smaller: the terminal flickers, or a log has more lines.
+        self._least = 0.1 if sys.stderr.isatty() else 10.0
 
     def __call__(self, done, count):
         now = time.monotonic()
@@ -97,9 +103,11 @@ class Progress:
             print(words, file=sys.stderr, flush=True)
 
 
-# Makes the film, or one picture if the name ends in .png, and returns an exit code. A picture shows the run at --from
-# (its start if that is not given); --to is ignored, and its curves show the whole run. Raises FolderError and
-# FilmError.
+# Makes the film, or one picture if the name ends in .png, prints summary() and returns an exit code: USAGE for times
+# outside of the run or an unknown ship, INPUT_OUTPUT if the folder of the film does not exist or the run has no frames.
+# A picture shows the run at --from (its start if that is not given); --to is ignored, and its curves show the whole
+# run. An existing file is replaced. Raises FolderError if the run cannot be read, and FilmError if ffmpeg is missing or
+# fails.
 def make(options):
     from polynya.errors import FolderError
     from polynya.results.run import Run
@@ -135,8 +143,8 @@ def make(options):
     return DONE
 
 
-# Returns the line that the command prints at its end. `times` are the times of the pictures [s], `rate` their number
-# per second of the film, and `speed` the simulated seconds per second of the film.
+# Returns the line that the command prints at its end. `path` is the written file, `times` are the times of the pictures
+# [s], `rate` their number per second of the film, and `speed` the simulated seconds per second of the film.
 def summary(path, times, rate, speed):
     megabytes = f"{os.path.getsize(path) / 1e6:.2g} MB"
     if len(times) == 1 or path.lower().endswith(".png"):
@@ -145,12 +153,13 @@ def summary(path, times, rate, speed):
             f"{times[-1]:g} s, {speed:g} x real time")
 
 
-# Handler of signals.
+# Handler of signals: ends the work by an exception, so that the draft of the film is removed on the way.
 def stop(number, _):
     raise Stopped(number)
 
 
-# Runs the command. After a signal the draft of the film is removed, and then the signal ends the process.
+# Runs the command and returns its exit code. After a signal the draft of the film is removed, a message is printed, and
+# then the signal ends the process, so there is no exit code.
 def main():
     options = command_line().parse_args()
     for number_of_signal in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):

@@ -24,7 +24,9 @@ from .history import History
 FLOES = tuple(zip(("ice", "broken off", "come up from under a hull", "under a hull"), colours.COLOURS))
 # (kind of event, word in the key, marker) of the fractures that are marked.
 FRACTURES = (("bend", "cusp bends off", "o"), ("split", "floe splits", "^"), ("grind", "ice grinds", "s"))
-HEAD, KEY, CHART = 0.07, 0.055, 0.25  # heights of title, key and force chart in fractions of a picture
+# Heights of title, key and force chart in fractions of a picture. The map has the rest, so it becomes lower if they are
+# larger; title and key must have room for one line of text (POINTS_PER_HEIGHT).
+HEAD, KEY, CHART = 0.07, 0.055, 0.25
 # Length of the shorter side of a map that follows a ship, in lengths of the ship. Larger values show more of the
 # surroundings, and the ship smaller.
 FOLLOWED = 2.0
@@ -34,8 +36,12 @@ RESTING = 1.0
 # Largest displacement during that time of a floe that counts as resting [px]. It is also the largest error of its place
 # in the film. Larger values draw faster, and resting floes jump visibly.
 AT_REST = 0.1
-SHOWN = 0.8  # time for which the mark of a fracture is shown, while it fades [s of the film]
-POINTS_PER_HEIGHT = 0.0195 * 72  # font size per inch of the picture's height [pt]: 0.0195 of the height
+# Time for which the mark of a fracture is shown, while it fades [s of the film]. With a longer one many marks hide the
+# ice; with a much shorter one they flash by unseen.
+SHOWN = 0.8
+# Font size per inch of the picture's height [pt]: 0.0195 of the height. With a larger one, the key may become wider
+# than the picture.
+POINTS_PER_HEIGHT = 0.0195 * 72
 
 
 @dataclasses.dataclass(frozen=True)
@@ -51,19 +57,21 @@ class Look:
 
     @property
     def dots(self):
-        """Dots per inch, which relate font sizes and line widths [pt] to pixels."""
+        """Dots per inch, which relate font sizes and line widths [pt] to pixels. Texts have the same size in pixels
+        with any value; other lines would become thicker with a larger one."""
         return 100
 
 
 def bar_length(room):
-    """Length of the scale bar: the longest of 1, 2, 5 · 10ⁿ metres that is at most `room` [m]."""
+    """Length of the scale bar [m]: the longest of 1, 2, 5 · 10ⁿ metres that is at most `room` [m], which is > 0."""
     power = 10.0 ** numpy.floor(numpy.log10(room))
     return float(max(step * power for step in (1, 2, 5) if step * power <= room))
 
 
 class Picture:
-    """Draws a run at one time after another with the settings of a Look. Times may go back, but are drawn fastest in
-    order. Raises ValueError if there is no ship to follow with that name."""
+    """Draws a run (results.run.Run) at one time after another with the settings of a Look. Times may go back, but are
+    drawn fastest in order. A map that follows a ship has it in its middle, and is drawn anew at each time, which is
+    slower. Raises ValueError if there is no ship, structure or wall to follow with that name."""
 
     def __init__(self, run, look):
         self.run, self.look = run, look
@@ -76,8 +84,9 @@ class Picture:
             self._lay_out()
 
     def _lay_out(self):
-        """Makes the figure with everything in it, and stores the picture of what does not change. There is no chart if
-        the run has no ship or no row of forces.csv."""
+        """Makes the figure with everything in it, and stores the picture of what does not change. The chart shows the
+        ship that the map follows, otherwise the first one. There is none if the run has no ship or no row of
+        forces.csv."""
         width, height = self.look.size
         self.figure = Figure(figsize=(width / self.look.dots, height / self.look.dots), dpi=self.look.dots)
         self.canvas = FigureCanvasAgg(self.figure)
@@ -109,8 +118,8 @@ class Picture:
             name.set_fontsize(1.1 * self._font * room / taken)
 
     def _set_window(self):
-        """Sets the scale of the map, and half of its width and height in metres. A map that follows no ship shows the
-        whole run, centred, and stays there."""
+        """Sets the scale of the map `_metre` [px per m], and half of its width and height `_half` [m]. A map that
+        follows no ship shows the whole run, centred, and stays there."""
         box = self._map.get_window_extent()
         if self.look.follow is None:
             x0, y0, x1, y1 = self.scenery.extent
@@ -120,7 +129,7 @@ class Picture:
             length = numpy.ptp(self.run.waterlines[self.look.follow], axis=0).max()
             scale = min(box.width, box.height) / (FOLLOWED * length)
         self._half = numpy.array([box.width, box.height]) / scale / 2
-        self._metre = scale  # [px]
+        self._metre = scale  # length of a metre on the map [px]
         if self.look.follow is None:
             self._move_to(self._middle)
 
@@ -132,14 +141,15 @@ class Picture:
         self._map.set_ylim(y0, y1)
 
     def _patch(self, **style):
-        """Adds an empty patch to the map, whose path each picture sets."""
+        """Adds an empty patch with this style to the map and returns it. Each picture sets its path."""
         patch = PathPatch(NOTHING, animated=True, joinstyle="round", **style)
         self._map.add_patch(patch)
         return patch
 
     def _make_ice(self):
         """Makes the patches of ice, hulls, walls and tracks. Returns those of each picture in the order of drawing: ice
-        under hulls is drawn last, over the hulls."""
+        under hulls is drawn last, over the hulls. The ice at the start is not among them, because it is part of the
+        stored picture. Edges are thinner on a map of a smaller scale, so that small floes are not only edges."""
         edge = float(numpy.clip(0.12 * self._metre, 0.06, 1.0)) * self.look.size[1] / 720
         self._at_start = self._patch(facecolor=colours.AT_START, linewidth=0)
         self._floes = [self._patch(facecolor=colour, edgecolor=colours.EDGE, linewidth=edge) for _, colour in FLOES[:3]]
@@ -165,7 +175,8 @@ class Picture:
         return list(self._marks.values())
 
     def _draw_key(self, chart):
-        """Draws the scale bar and the meaning of colours and marks in one line."""
+        """Draws the scale bar and the meaning of colours and marks in one line, which is at the height `chart`
+        (fraction of the picture). The bar takes at most a fifth of the picture's width."""
         axes = self.figure.add_axes((0, chart, 1, KEY))
         axes.set(xlim=(0, self.look.size[0]), ylim=(-1, 1))
         axes.set_axis_off()
@@ -199,7 +210,8 @@ class Picture:
                 yield word, {"marker": marker, "color": colours.MARKS[kind], "markeredgewidth": 0}
 
     def draw(self, time):
-        """Returns the picture at a simulated time [s]: rows × columns × 4 bytes (RGBA). The next call overwrites it."""
+        """Returns the picture at a simulated time [s]: rows × columns × 4 bytes (RGBA), the top row first. The next
+        call overwrites it, so copy what you keep."""
         frame = self.run.frame(time)
         if self.look.follow is not None:
             names = self.run.ship_names
@@ -265,7 +277,8 @@ class Picture:
         self._resting_picture = self.canvas.copy_from_bbox(self.figure.bbox)
 
     def _show_fractures(self, marks, kind, time):
-        """Draws the marks of recent fractures, which fade with time."""
+        """Sets the marks of the fractures of a kind in the last SHOWN seconds of the film before a time [s], which fade
+        with their age to a fifth."""
         stays = SHOWN * self.look.speed
         points, age = self.scenery.fractures(kind, time - stays, time)
         marks.set_offsets(points if len(points) else numpy.empty((0, 2)))

@@ -15,12 +15,15 @@ from .tables import write_table
 # Values of the table by regime if the options do not give others: covers [-], floe or piece sizes [m], speeds [m/s] and
 # thicknesses [m]. Every combination is a point. Level ice is one plate, so its cover is 1 and its size 0 (none). In a
 # channel 2.572 m/s are 5 knots and the thicknesses belong to the ice classes, for which rules.py needs these points.
+# More values need more runs (points times fields) and determine the fit better; the help of the options states these
+# values.
 COVERS = {ice_scenes.PACK: (0.5, 0.7, 0.85), ice_scenes.LEVEL: (1.0,), ice_scenes.CHANNEL: (0.8,)}
 SIZES = {ice_scenes.PACK: (20.0, 40.0), ice_scenes.LEVEL: (0.0,), ice_scenes.CHANNEL: (2.0,)}
 SPEEDS = {ice_scenes.PACK: (1.0, 2.0, 4.0), ice_scenes.LEVEL: (1.0, 2.0, 4.0), ice_scenes.CHANNEL: (1.0, 2.572, 4.0)}
 THICKNESSES = {ice_scenes.PACK: (0.3, 0.5, 0.8), ice_scenes.LEVEL: (0.3, 0.5, 0.8),
                ice_scenes.CHANNEL: (0.6, 0.8, 1.0)}
-# Sentence by regime on what the model was compared with, for `not_supported` of the JSON file.
+# Sentence by regime on what the model was compared with, for `not_supported` of the JSON file. It must be changed with
+# docs/validation.md and resistance.VALIDATED.
 NOTHING = {
     ice_scenes.CHANNEL: "Compared with the ice class rules' formula alone (docs/brash.md), not with measurements.",
     ice_scenes.PACK: "Compared with published curves only for floes of 15 m, 0.5 m thick, at 1 m/s, covers 0.3 to "
@@ -38,7 +41,8 @@ def regime_of(arguments):
                 None)
 
 
-# Returns the points of the table, as resistance.points_of() does. Level ice ignores cover and floe size.
+# Returns the points of the table, as resistance.points_of() does, from the options, or for those not given from the
+# values above. Level ice ignores cover and floe size.
 def wanted_points(regime, arguments):
     if regime == ice_scenes.LEVEL:
         covers, sizes = COVERS[regime], SIZES[regime]
@@ -48,14 +52,15 @@ def wanted_points(regime, arguments):
 
 
 def print_points(points, seeds):
-    """Prints the points and the number of runs that the table would need, for --list."""
+    """Prints the points and the number of runs that the table would need with so many seeds per point, for --list."""
     print(f"{'V [m/s]':>8}{'h [m]':>8}{'C':>7}{'floes [m]':>11}")
     for point in points:
         print(f"{point['speed_m_per_s']:8g}{point['thickness_m']:8g}{point['cover']:7g}{point['floe_size_m']:11g}")
     print(f"{len(points)} points, {len(points) * seeds} runs")
 
 
-# Prints the rows of Resistance.rows() with `fit_N`, the resistance by the fit, and the meaning of their marks.
+# Prints the rows of Resistance.rows() with `fit_N`, the resistance by the fit, and the meaning of their marks. An error
+# that is not known, because there is one field per point, is printed as nan.
 def print_table(rows):
     print(f"{'V [m/s]':>8}{'h [m]':>8}{'C':>7}{'floes [m]':>11}{'R [kN]':>10}{'± fields':>10}{'contact':>10}"
           f"{'under hull':>12}{'fit [kN]':>10}")
@@ -73,7 +78,9 @@ def print_table(rows):
 def described(name, found, ice, fitted, rows):
     """Returns the contents of the JSON file for other programs: the fit `fitted` (a colbourne.Fit), the ship and ice
     for which it holds, its range, and what it does not support. `name` is the regime, `found` the ship as `polynya
-    ships --json --for-performance` describes it."""
+    ships --json --for-performance` describes it, `ice` a formulas.Ice, and `rows` those of the table, also the ones
+    without a resistance. `n` and `n_error` are null if all points have the same cover. The keys are part of the format
+    that route planners read."""
     ranges = {key: [min(row[key] for row in rows), max(row[key] for row in rows)]
               for key in ("speed_m_per_s", "thickness_m", "cover", "floe_size_m")}
     return {
@@ -97,7 +104,8 @@ def report_progress(done, total):
     print(f"{done} of {total} runs", end="\r" if sys.stderr.isatty() and done < total else "\n", file=sys.stderr)
 
 
-# Writes the table as CSV and the fit as JSON; both files are named by the regime.
+# Writes the table as CSV and the fit as JSON into `folder`; both files are named by the regime, such as pack.json, and
+# replace those of an earlier call. Prints their names. Raises OSError if one cannot be written.
 def write_files(folder, name, rows, found, ice, fitted):
     write_table(os.path.join(folder, f"{name}.csv"), rows)
     path = os.path.join(folder, f"{name}.json")
@@ -111,7 +119,8 @@ def main(arguments, found, ice, fail, codes):
     """Makes the table for the requested regime and returns an exit code. `found` is as in described(), `ice` a
     formulas.Ice without thickness. `fail(code, message)` prints a message and returns the code. `codes` are the exit
     codes done, failed and stopped. Level ice has one run per point, because it has no random field of floes. Points
-    whose resistance is not positive are left out of the fit, which uses logarithms."""
+    whose resistance is not positive are left out of the fit, which uses logarithms. If a run fails or the points do not
+    determine the fit, nothing is written, but finished runs are kept for the next call."""
     done, failed, stopped = codes
     name = regime_of(arguments)
     if arguments.list and name == ice_scenes.CHANNEL:

@@ -17,7 +17,10 @@ SAGITTA = 0.01
 def waterline(body):
     """Returns the waterline of a body of the scene as an array of n × 2 in the body's own frame [m], not closed. A
     cylinder (`radius_m`) is a polygon. A wall (`from_m`) is a rectangle behind its face, with the origin at the middle
-    of the face. A hull has its given waterline, or a wedge-shaped bow with a parallel midbody and a square stern."""
+    of the face. A hull has its given waterline (`waterline_m`), otherwise a wedge-shaped bow with a parallel midbody
+    and a square stern, which has the origin at half its length. A resolved scene has all keys that this needs;
+    otherwise a KeyError is raised."""
+    # A small cylinder has at least 24 corners, as in the program, so that it is round also if SAGITTA asks for fewer.
     if "radius_m" in body:
         radius = body["radius_m"]
         half_turn = math.acos(max(-1.0, 1 - SAGITTA / radius))
@@ -36,9 +39,10 @@ def waterline(body):
 
 
 def first_motion(body):
-    """Returns the initial motion of a body: x, y [m], heading [rad, counter-clockwise from the x axis] and their three
-    rates. The rates are 0 even if the scene gives the body a speed. The heading of a wall is the direction in which its
-    face points: to the left of the line from `from_m` to `to_m`."""
+    """Returns the initial motion of a body as a list: x, y [m], heading [rad, counter-clockwise from the x axis] and
+    their three rates [m/s, m/s, rad/s]. The rates are 0 even if the scene gives the body a speed, so use only the pose.
+    A body without a position or heading in the scene has (0, 0) and 0. The heading of a wall is the direction in which
+    its face points: to the left of the line from `from_m` to `to_m`."""
     if "from_m" in body:
         (x0, y0), (x1, y1) = body["from_m"], body["to_m"]
         return [(x0 + x1) / 2, (y0 + y1) / 2, math.atan2(x1 - x0, y0 - y1), 0, 0, 0]

@@ -1,5 +1,6 @@
 """Shapes of a run's floes in their body frames [m]. The file has whole rings, or references to the rings of parents
-(docs/run-folder.md, "floes.ndjson"). A shape may thus need those of all its ancestors."""
+(docs/run-folder.md, "floes.ndjson"). A shape may thus need those of all its ancestors. Rings are open: the last point
+does not repeat the first."""
 from __future__ import annotations
 
 import numpy
@@ -12,7 +13,8 @@ MOST_KEPT = 8 << 20
 
 
 class Shapes:
-    """Assembles shapes when they are wanted, and keeps up to MOST_KEPT vertices of those assembled last."""
+    """Assembles shapes when they are wanted, and keeps those that were first asked for last, with up to MOST_KEPT
+    vertices."""
 
     def __init__(self, births, path):
         """`births` are the objects of floes.ndjson, in which each floe's id is its index. `path` is used in errors."""
@@ -20,8 +22,9 @@ class Shapes:
         self._kept, self._vertices = {}, 0
 
     def of(self, floes):
-        """{id: [outer ring, holes …]} of some floes; each ring is an array of n × 2 [m]. Raises FolderError, with the
-        line, if a shape or its parent is damaged."""
+        """{id: [outer ring, holes …]} of some floes; each ring is an array of n × 2 in the floe's body frame [m]. The
+        arrays are shared with later calls, so they must not be changed. Raises FolderError, with the line, if a shape
+        or one of its ancestors' is damaged. The ids must be those of floes of the run, which is not checked."""
         wanted = {int(floe) for floe in floes}
         needed, waiting = set(), list(wanted)
         while waiting:
@@ -43,14 +46,16 @@ class Shapes:
         return shapes
 
     def _parent_of(self, floe):
-        """The id of the floe whose rings the floe refers to. It has to be smaller than the floe's own id."""
+        """The id of the floe whose rings the floe refers to. Raises FolderError if there is none, or if it is not
+        smaller than the floe's own id."""
         parent = self._births[floe]["parent_id"]
         if parent is None or not 0 <= parent < floe:
             raise FolderError(f"{self._path}:{floe + 1}: parts of a parent that is not on a line before")
         return parent
 
     # Returns the rings of a floe. `found` has the shapes assembled so far, `children` the number of floes that still
-    # need each parent. A parent that nobody needs any more is removed from `found`, which saves memory.
+    # need each parent, `wanted` the ids whose shapes of() returns. A parent that is neither needed any more nor wanted
+    # is removed from `found`, which saves memory. Raises FolderError with the line if the shape is damaged.
     def _assembled(self, floe, found, children, wanted):
         birth = self._births[floe]
         try:
@@ -69,7 +74,8 @@ class Shapes:
         return rings
 
     def _keep(self, shapes):
-        """Keeps the shapes, and drops the oldest ones until at most MOST_KEPT vertices or one shape are left."""
+        """Keeps the shapes, and drops those kept longest until at most MOST_KEPT vertices or one shape are left. Using
+        a kept shape again does not make it newer."""
         for floe, rings in shapes.items():
             if floe not in self._kept:
                 self._kept[floe] = rings
@@ -89,7 +95,8 @@ def ring_of(points):
 def vertices(part, parent):
     """Vertices of a part of a ring. A part is a list of new vertices [x, y], or three numbers: the index of a ring of
     the parent (0 is the outer ring), the index of the first vertex in it, and the number of vertices. The stretch
-    continues from the last vertex of that ring with the first one."""
+    continues from the last vertex of that ring with the first one. Raises IndexError, TypeError or ValueError if the
+    part is none of these, which _assembled() turns into a FolderError."""
     if isinstance(part[0], list):
         return numpy.array(part, dtype=float)
     ring, first, count = part

@@ -24,8 +24,9 @@ class Study:
     or a frame if pandas is installed (None).
 
     Raises NotAStudyError if the folder has no plan; VersionError if the plan is of another format or damaged;
-    FolderError if the table has not been gathered; and UnfinishedError if not all cases have finished, except with
-    `unfinished=True`. `table["state"]` then says which cases are "finished", "failed", "unfinished" or "missing"."""
+    FolderError if the table has not been gathered or its summary is damaged; and UnfinishedError if not all cases had
+    finished when the table was gathered, except with `unfinished=True`. `table["state"]` then says which cases are
+    "finished", "failed", "unfinished" (begun) or "missing" (not begun)."""
 
     def __init__(self, folder: Union[str, os.PathLike[str]], *, unfinished: bool = False,
                  pandas: Optional[bool] = None):
@@ -42,7 +43,8 @@ class Study:
         if not (self.folder / SUMMARY).is_file() or not (self.folder / TABLE).is_file():
             raise FolderError(f"{self.folder}: the study has no table: polynya study gather {self.folder} makes it")
         self.plan: dict = self._study.plan  #: contents of plan.json
-        self.summary: dict = read_summary(self.folder)  #: summary of the table, with the number of cases in each state
+        #: contents of gather.json: numbers of cases in each state, and the names of parameters and columns of the table
+        self.summary: dict = read_summary(self.folder)
         if not self.summary["is_complete"] and not unfinished:
             raise UnfinishedError(
                 f"{self.folder}: {self.summary['finished']} of {self.summary['cases']} cases are in the table: polynya "
@@ -69,19 +71,21 @@ class Study:
 
     @property
     def measures(self) -> list[str]:
-        """Names of the columns with measures (docs/studies.md, "Measures")."""
+        """Names of the columns with measures (docs/studies.md, "Measures"); empty if no case has finished."""
         return [name for name in self.summary["columns"] if name not in ("case", "state", *self.parameters)]
 
     @property
     def table(self) -> Any:
         """table.csv as it was last gathered, one row per case, as a pandas frame or a structured array. A column has
-        numbers if all its values are numbers, with NaN for no value, otherwise texts. Each access reads the file."""
+        numbers if all its values are numbers, with NaN for no value, otherwise texts, with "" for no value. Each access
+        reads the file. Raises FolderError if the file is damaged."""
         cells = read_cells(self.folder / TABLE)
         return table({name: values_of(name, of, cells.path) for name, of in cells.items()}, self._pandas)
 
     def run(self, case: int, **options: Any) -> Run:
-        """The run of a case. Options are those of Run. Raises IndexError if there is no such case, and FolderError if
-        its run folder is not there: the case has not run, the study keeps only summaries, or the case is packed."""
+        """The run of a case, counted from 0. Options are those of Run, with the study's `pandas` by default. Raises
+        IndexError if there is no such case, and FolderError if its run folder is not there: the case has not run, the
+        study keeps only summaries, or the case is packed. An existing run that is not finished is refused by Run."""
         if not 0 <= case < self._study.count:
             raise IndexError(f"there is no case {case}; the study has 0 to {self._study.count - 1}")
         found = self._study.case_folder(case) / folders.RUN
@@ -95,7 +99,8 @@ class Study:
 
 def values_of(name, cells, path):
     """A column of table.csv as an array: integers for "case", floats if all cells are numbers or empty, otherwise
-    texts. `path` is the file in messages."""
+    texts. Empty cells are NaN among numbers. `path` is the file in messages. Raises FolderError for a case that is no
+    number."""
     if name == "case":
         return numpy.array(numbers(cells, path, name, absent=()), dtype=numpy.int64)
     if not all(cell == "" or is_number(cell) for cell in cells):

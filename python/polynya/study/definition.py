@@ -1,5 +1,5 @@
 """Reads the file of a study and checks it (docs/studies.md). Values of scene keys are not checked here; that is done
-when the study is planned."""
+when the study is planned. Messages state what was found and what is allowed, with line and column of the file."""
 import dataclasses
 import difflib
 import math
@@ -11,9 +11,12 @@ from .design import read_design
 from .expand import repeats_by_seed
 from .located_json import LocatedJson, StudyError, shortened, shown
 
-LARGEST_SEED = 2**53 - 1  # largest seed: larger integers are not exact as doubles, which JSON numbers are
+# Largest seed. With a larger one, two seeds could be the same double, as which the program reads JSON numbers.
+LARGEST_SEED = 2**53 - 1
 LONGEST_RANGE = 10**6  # largest number of values of a range; a mistyped step would otherwise fill the memory
-LONGEST_NAME = 1000  # longest file name of a scene [characters]
+# Longest file name of a scene [characters], far above real ones. A longer text is refused here, with its place in the
+# study; otherwise the file system would refuse it later.
+LONGEST_NAME = 1000
 # Names of studies and of targets, which are parts of file names and of columns.
 NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._-]{0,99}")
 # Keys of a study, and below them the keys of its objects `collect`, `collect.management` and `report`. Any other key is
@@ -37,7 +40,8 @@ KEYS = (
 COLLECT_KEYS = ("ship", "from_s", "from_m", "loads", "quantiles", "stop_speed_m_per_s", "channel", "time_to",
                 "management")
 MANAGEMENT_KEYS = ("body", "upstream_m", "near_m", "width_m", "size_m", "from_s")
-# Keys of a target of collect.time_to, which must have one of these sets.
+# Keys of a target of collect.time_to, which must have exactly one of these sets: a line across x or y, a distance
+# sailed, or a circle about a point.
 TARGETS = ({"x_m"}, {"y_m"}, {"distance_m"}, {"point_m", "within_m"})
 REPORT_KEYS = ("against", "means", "exceedance", "group_by", "map", "channels")
 
@@ -45,9 +49,9 @@ REPORT_KEYS = ("against", "means", "exceedance", "group_by", "map", "channels")
 @dataclasses.dataclass
 class Definition:
     """A valid study. A path is that of a scene key, such as "ice.thickness_m". Cases are all combinations of scenes,
-    grid, pairs and draws, repeated with other seeds (expand.py)."""
+    grid, pairs and draws, repeated with other seeds (expand.py). No path is set twice."""
 
-    file: str  # file of the study, as it was given
+    file: str  # path of the study's file, as it was given
     name: str  # the study's folder is studies/<name> by default
     folder: pathlib.Path  # folder of the file, to which names of scenes and of the design are relative
     scenes: list  # names of the scenes' files, as in the file
@@ -57,20 +61,21 @@ class Definition:
     design: dict  # path -> values of a CSV file with one row per case
     draw: dict  # path -> (kind of distribution, its numbers), as for draws.draw()
     draws: int  # number of random draws
-    method: str  # "independent" or "latin_hypercube"
-    draw_seed: int  # selects the draws
+    method: str  # "independent" or "latin_hypercube", how draws are spread (draws.uniform_numbers)
+    draw_seed: int  # selects the draws; another seed gives other values
     repetitions: int  # number of times that each case is run, with another scene seed each
     seed: int  # scene seed of the first repetition
-    collect: dict  # settings of the measures
+    collect: dict  # settings of the measures, as in the file; missing ones get their defaults where they are used
     keep: str  # "all", or "summary" to remove the run folder of a finished case
     archive: bool  # whether chunks are packed into one file after their cases have ended
-    report: dict  # contents of the report page
+    report: dict  # settings of the report page, as in the file
     source: LocatedJson  # for the places of problems that the check of a scene finds
 
 
 def read_definition(file, design=None):
     """Reads the study in a JSON file and returns its Definition. `design` is a CSV file that replaces the study's own
-    design. Raises StudyError with all problems of the study, or of the design."""
+    design. Raises StudyError with all problems of the study; if the design has problems, only with those. A file that
+    cannot be read is a StudyError (code 5) if it is the study, and an OSError if it is the design."""
     file = pathlib.Path(file)
     return Reader(LocatedJson(file)).read(file, design)
 
@@ -130,14 +135,15 @@ class Reader:
         return definition
 
     def design(self, study, file, given):
-        """Returns the values of a design by path, from the file `given` or otherwise from the study's own design, which
-        is relative to the study's file. The result is empty without a design."""
+        """Returns the values of a design by path, from the file `given`, which is relative to the working directory, or
+        otherwise from the study's own design, which is relative to the study's file. The result is empty without a
+        design. Raises as read_design() does."""
         named = self.member(study, "design", str, "")
         if not given and not named:
             return {}
         return read_design(given or file.parent / named)
 
-    # Notes a problem of the value at a path.
+    # Notes a problem of the value at a path, or of the innermost value around it if the file has no such value.
     def report(self, path, message):
         self.problems.append(self.source.problem(path, message))
 
@@ -150,8 +156,8 @@ class Reader:
                 meant = f'; did you mean "{near[0]}"?' if near else ""
                 self.problems.append(self.source.problem([*path, key], message + meant, of_key=True))
 
-    # Returns a member of the object `given`, which must be of the type `kind`. If it is missing or wrong, the result is
-    # the default.
+    # Returns a member of the object `given`, which must be of the type `kind` (dict, list, str or bool). If it is
+    # missing or wrong, the result is the default; only a wrong one is reported. `path` is that of `given`.
     def member(self, given, key, kind, default, path=()):
         value = given.get(key, default)
         if isinstance(value, kind):
@@ -173,7 +179,7 @@ class Reader:
         )
         return default
 
-    # Like member(), for a whole number from `least` to `most`.
+    # Like member(), for a whole number from `least` to `most`, both allowed. Numbers such as 1e3 are whole too.
     def whole(self, given, key, least, most, default, path=()):
         value = given.get(key, default)
         if isinstance(value, int) and not isinstance(value, bool) and least <= value <= most:
@@ -191,7 +197,9 @@ class Reader:
 
     def values(self, spec, path):
         """Returns the values of a key of `grid` or `paired`: a list as it is, or the values of a range, which is an
-        object with from, to and either count (with linear or log spacing) or step."""
+        object with from, to and either count (with linear or log spacing) or step. Both ends are values of a range with
+        a count. The result is [None], or the empty list itself, if the values are wrong, which is reported. `spacing`
+        is ignored beside a step."""
         if isinstance(spec, list):
             if not spec:
                 self.report(path, "found an empty list, allowed: at least one value")
@@ -226,7 +234,8 @@ class Reader:
         return [None]
 
     # Returns the values of a range with a step, which may be negative. `high` is the last value if a whole number of
-    # steps leads to it within rounding. Values are rounded to 12 decimals, so that 0.1 + 2 · 0.1 is 0.3.
+    # steps leads to it within rounding; otherwise the last value is before it. Values are rounded to 12 decimals, so
+    # that 0.1 + 2 · 0.1 is 0.3; a step below 1e-12 would therefore give equal values.
     def stepped(self, low, high, spec, path):
         step = spec["step"]
         if not draws.is_number(step) or step == 0 or not 0 <= (high - low) / step < LONGEST_RANGE:
@@ -236,7 +245,7 @@ class Reader:
         values = [low + i * step for i in range(math.floor((high - low) / step * (1 + 1e-12) + 1e-9) + 1)]
         return [round(value, 12) for value in values]
 
-    # Returns the valid distributions of `draw` by path, as (kind, numbers).
+    # Returns the valid distributions of `draw` by path, as (kind, numbers); wrong ones are reported and left out.
     def distributions(self, draw):
         self.unknown_keys(draw, ("count", "method", "seed", "of"), ["draw"])
         found = {}
@@ -285,7 +294,8 @@ class Reader:
         return collect
 
     def time_to(self, name, target, path):
-        """Checks a target of collect.time_to: its name, and its line, distance, or position with a radius [m]."""
+        """Checks a target of collect.time_to: its name, and its line, distance, or position with a radius [m]. `path`
+        is that of the target."""
         if not NAME.fullmatch(name):
             found = shown(name)
             allowed = "a name of letters, digits and . _ -, starting with a letter or digit"
@@ -337,7 +347,8 @@ class Reader:
                 f"be copies",
             )
 
-    # Reports a path that is set twice, or whose part or whole is also set, and the path "scene".
+    # Reports a path that is set twice, or whose part or whole is also set ("ice" beside "ice.thickness_m"), because the
+    # order of setting would then decide, and the path "scene", which is no key of a scene.
     def check_paths(self, definition):
         blocks = {
             "set": definition.fixed,

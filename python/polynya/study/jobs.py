@@ -11,14 +11,15 @@ from .folder import RUN
 from .stop import SIGNALS, Stop
 from .table import Counts, Display
 
-# State of a worker process, set once by begin_worker, so that it is not sent with each case: the study, and the file
-# descriptor that becomes readable when the command is to stop.
+# State of a worker process, set once by begin_worker, so that it is not sent with each case: the study (folder.Study),
+# and the file descriptor that becomes readable when the command is to stop. Both stay None in the parent process.
 STUDY, STOP = None, None
 
 
 def begin_worker(study, stop):
     """Prepares a new worker process. It keeps only the reading end of the stop, and ignores the signals by which the
-    parent is stopped."""
+    parent is stopped: a terminal sends them to all its processes, but the run shall stop by `stop`, with a checkpoint.
+    A signal that was ignored already stays ignored."""
     global STUDY, STOP
     die_with_parent(signal.SIGKILL)  # otherwise it would wait for work forever; its run then stops with a checkpoint
     STUDY, STOP = study, stop.reader
@@ -30,7 +31,8 @@ def begin_worker(study, stop):
 
 def run_in_worker(number, keep):
     """Runs a case in a worker process and returns (exit code, message); the message is empty if there is nothing to
-    say. `keep` is that of run_case."""
+    say. `keep` is that of run_case. An OSError, such as a full disk, is the result INPUT_OUTPUT with its message; other
+    exceptions are raised again in the parent process and end the command."""
     try:
         return run_case(STUDY, number, STOP, keep)
     except OSError as error:  # after a full disk, the other cases continue or fail in the same way
@@ -38,14 +40,16 @@ def run_in_worker(number, keep):
 
 
 def exit_code(counts):
-    """Exit code of a command that runs many cases: STOPPED if any was stopped, otherwise FAILED if any failed."""
+    """Exit code of a command that runs many cases: STOPPED if any was stopped, otherwise FAILED if any failed, also in
+    an earlier command or with another code than FAILED, otherwise DONE."""
     return STOPPED if counts.stopped else FAILED if counts.failed else DONE
 
 
 def run_cases(study, numbers, jobs, *, keep=None, retries_failed=False, is_quiet=False):
-    """Runs those of the cases that have not finished, `jobs` at a time, and returns an exit code. Failed cases run
-    again only with `retries_failed`. `keep` replaces the study's setting; None leaves it. A signal stops the runs with
-    checkpoints. Returns INPUT_OUTPUT if a worker process was killed."""
+    """Runs those of the cases `numbers` that have not finished, `jobs` at a time, and returns exit_code(). Failed cases
+    run again only with `retries_failed`; otherwise they still count as failed. `keep`, "all" or "summary", replaces the
+    study's setting; None leaves it. A signal stops the runs with checkpoints. If a worker process was killed, the
+    result is INPUT_OUTPUT, with a message; its case continues from its checkpoint when the command runs again."""
     counts, table, waiting = Counts(len(numbers)), Display(is_quiet), []
     for number, state in states_of(study, numbers, keep):
         counts.done += state == "finished"
@@ -70,8 +74,10 @@ def run_cases(study, numbers, jobs, *, keep=None, retries_failed=False, is_quiet
 
 
 def states_of(study, numbers, keep):
-    """Yields (number, state) of some cases, including packed ones. A finished case whose run folder was removed counts
-    as missing with `keep` "all", so that it runs again. Archives are read once if the numbers are in order."""
+    """Yields (number, state) of some cases, including packed ones. The states are those of case.state_of(). A finished
+    case whose run folder was removed counts as missing with `keep` "all", so that it runs again, unless it is packed:
+    archive.unpack_to_run() unpacks such cases before. Archives are read once if the numbers are in order. Raises
+    StudyError if one is damaged."""
     packed_chunk, packed = None, []
     for number in numbers:
         chunk = number // study.chunk_size
@@ -88,7 +94,9 @@ def states_of(study, numbers, keep):
 
 def run_waiting(study, waiting, jobs, keep, stop, counts, table):
     """Runs the waiting cases, counts how they end and updates the table, until all have ended or the stop is raised.
-    Cases that have not begun by then are not counted. Raises BrokenProcessPool if a worker is killed."""
+    Cases that have not begun by then are not counted, but the stop counts as one stopped case even if no case was
+    running. Up to twice as many cases as there are workers are handed to the pool. Raises BrokenProcessPool if a worker
+    is killed."""
     context = multiprocessing.get_context("fork")
     with concurrent.futures.ProcessPoolExecutor(min(jobs, len(waiting)), context, begin_worker, (study, stop)) as pool:
         left, running = iter(waiting), {}
@@ -103,6 +111,7 @@ def run_waiting(study, waiting, jobs, keep, stop, counts, table):
                 break
             counts.running = sorted(running.values())[:jobs]
             table.show(counts)
+            # 0.2 s: the table is live, and a stop is seen, also while no case ends. A shorter time costs work.
             ended, _ = concurrent.futures.wait(running, 0.2, concurrent.futures.FIRST_COMPLETED)
             for future in ended:
                 del running[future]
@@ -116,7 +125,7 @@ def run_waiting(study, waiting, jobs, keep, stop, counts, table):
 
 
 def count_end(counts, table, code, message):
-    """Counts a case by its exit code and shows its message."""
+    """Counts a case by its exit code and shows its message. Every code except DONE and STOPPED counts as failed."""
     if message:
         table.message(message)
     if code == DONE:

@@ -1,6 +1,8 @@
 """Pictures of a study's page, drawn with matplotlib as SVG and PNG: exceedance of peaks, means, and a map of outcomes.
-`sample` is a sample.Sample, and `folder` that of the pictures."""
+`sample` is a sample.Sample, `folder` the pathlib.Path of the pictures' folder, `measure` and `group_by` are names of
+its columns. A picture that exists is replaced."""
 import math
+import re
 
 import numpy
 from matplotlib.lines import Line2D
@@ -10,9 +12,12 @@ from .. import statistics
 from ..figures import page
 from .sample import fits_of, refuted
 
-COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999933")  # [Okabe2008]
+# Colours of groups in their order; people with impaired colour vision can distinguish them [Okabe2008]. Their number is
+# that of the groups with fits and legend entries.
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999933")
 GREY = "#bbbbbb"  # colour of groups beyond the number of COLOURS, which have no fits and no legend entry of their own
-# Colours of the outcomes of measures.outcome. If several are most frequent, the first one of them is drawn.
+# Colours of the outcomes of measures.outcome, all of which must be here. If several are most frequent, the first one of
+# them is drawn.
 OUTCOMES = {"pushed": "#56b4e9", "bent": "#009e73", "split": "#d55e00", "stuck": "#000000"}
 PAPER = (
     0.999,
@@ -30,13 +35,14 @@ PAPER = (
     0.002,
     0.001,
 )  # probabilities of exceedance at ticks of the probability paper
-# Unit of a measure's name -> (size of the drawn unit in that unit, name of the drawn unit). Others are drawn as they
-# are.
+# Unit at the end of a measure's name -> (size of the drawn unit in that unit, name of the drawn unit), so that loads in
+# N are drawn in MN. Others are drawn as they are.
 SCALES = {"N": (1e6, "MN"), "Nm": (1e6, "MN m"), "J": (1e6, "MJ"), "m": (1, "m"), "s": (1, "s")}
 
 
 def save(figure, folder, name):
-    """Writes name.svg and name.png into the folder, which it makes. Returns the name of the SVG."""
+    """Writes name.svg and name.png into the folder, which it makes; the folder above must exist. Returns the name of
+    the SVG, without the folder. Raises OSError with the file's name if one cannot be written."""
     folder.mkdir(exist_ok=True)
     list(page.save(figure, str(folder / name), ("svg", "png"), 200))
     return name + ".svg"
@@ -44,8 +50,9 @@ def save(figure, folder, name):
 
 def label_of(measure, is_parameter=False):
     """Returns a label such as "resistance peak [MN]" for the name of a measure with its unit, and the factor by which
-    values are multiplied to be in the label's unit. For the path of a parameter the label is its last part in the
-    unit of the scene, and the factor 1."""
+    values are multiplied to be in the label's unit. For the path of a parameter the label is its last part in the unit
+    of the scene, and the factor 1. The index of a list becomes x, y or the number: "position x [m]". A name that ends
+    with no known unit is the label without a unit."""
     name, _, index = measure.rsplit(".", 1)[-1].partition("[")
     axis = {"0]": " x", "1]": " y"}.get(index, f" {index.rstrip(']')}" if index else "")
     for unit in sorted(("m_per_s", "deg", "Pa", *SCALES), key=len, reverse=True):
@@ -58,7 +65,8 @@ def label_of(measure, is_parameter=False):
 
 def in_words(value, digits=6):
     """A number as text with that many significant digits; with the default, whole numbers have all their digits. An
-    exponent is used only below 1e-4 and from 1e12 on. Other values are converted by str()."""
+    exponent is used only below 1e-4 and from 1e12 on. Other values, also texts and NaN, are converted by str(), in
+    which the word "inf" becomes ∞."""
     if not isinstance(value, (int, float)) or not math.isfinite(value):
         return re.sub(r"\binf\b", "∞", str(value))
     if value and not 1e-4 <= abs(value) < 1e12:
@@ -77,7 +85,7 @@ def group_label(name, value):
 
 def lines_of(sample, group_by):
     """[(value, cases, colour)] of the groups by a parameter, or of all cases if it is None. `cases` is a mask. Groups
-    beyond the number of colours are grey."""
+    beyond the number of colours are grey. The groups are in the order of their values."""
     groups = sample.groups(group_by)
     return [(value, cases, COLOURS[k] if k < len(COLOURS) else GREY) for k, (value, cases) in enumerate(groups)]
 
@@ -90,13 +98,15 @@ def more(lines):
 
 def reduced(p):
     """Gumbel's reduced variate −ln(−ln(1 − p)) for a probability of exceedance p. As the y coordinate, it makes his
-    distribution a straight line."""
+    distribution a straight line. p is a number or an array between 0 and 1; 0 gives ∞ and 1 gives −∞."""
     return -numpy.log(-numpy.log1p(-numpy.asarray(p)))
 
 
 def draw_fits(axes, values, factor, lowest, colour):
-    """Draws lines of both fits to the values, dotted if they are refuted, down to less than the probability `lowest`.
-    `factor` converts to the label's unit. Returns {text for the legend: line style}; a fit that failed is left out."""
+    """Draws lines of both fits to the values, dotted if they are refuted, from the probability of exceedance 0.995 down
+    to half of `lowest`, but at least to 0.02, so that also a small group shows the value exceeded in 2 % of the runs.
+    `values` are in the measure's unit, and `factor` converts to the label's. Returns {text for the legend: line style};
+    a fit that failed, for example for too few values, is left out."""
     found = {}
     for name, dash in (("gumbel", "-"), ("weibull", "--")):
         fitted = fits_of(values)[name]
@@ -110,7 +120,8 @@ def draw_fits(axes, values, factor, lowest, colour):
 
 def exceedance(sample, measure, group_by, folder):
     """Draws the values of a measure and both fits on Gumbel's probability paper, on which his distribution is a
-    straight line, with a colour for each group. Returns the name of the SVG."""
+    straight line, with a colour for each group. Grey groups have no fit, and a group without values is left out.
+    Returns the name of the SVG. Drawing takes long, because each fit needs a bootstrap."""
     label, factor = label_of(measure)
     lowest, handles, dashes = 0.5, [], {}
     lines = lines_of(sample, group_by)
@@ -140,7 +151,8 @@ def exceedance(sample, measure, group_by, folder):
 
 def means(sample, measure, against, group_by, folder):
     """Draws means of a measure with 95 % intervals over the parameter `against`, with a line for each group. Returns
-    the name of the SVG. A single case is a point without an interval."""
+    the name of the SVG. A single case is a point without an interval; a value of `against` without cases has no point.
+    If `group_by` is `against`, all cases are one line."""
     label, factor = label_of(measure)
     lines, handles = lines_of(sample, None if group_by == against else group_by), []
     with page.Sheet(page.Page(), f"Mean of the {label.partition(' [')[0]}", "with its 95 % interval") as sheet:
@@ -171,7 +183,9 @@ def means(sample, measure, against, group_by, folder):
 
 def outcome_map(sample, over, folder):
     """Draws the most frequent outcome over two parameters, the one with more values along x, with its fraction of the
-    cell's cases if it is not all. Returns the name of the SVG."""
+    cell's cases if it is not all. `over` has the names of both parameters. Fractions are left out if there are more
+    than 25 columns, because they would not fit; a cell without cases stays empty. Returns the name of the SVG. The
+    table must have the column "outcome"."""
     xs, ys = sample.values_of(over[0]), sample.values_of(over[1])
     if len(xs) < len(ys):
         over, xs, ys = over[::-1], ys, xs
@@ -195,7 +209,7 @@ def outcome_map(sample, over, folder):
         return save(sheet.finish(height, marks), folder, "outcomes")
 
 
-# Caption of the map of outcomes.
+# Caption of the map of outcomes: what draw_cell() draws.
 CAPTION = "Outcome of most cases; paler, with its share, where it is not the outcome of all"
 
 
