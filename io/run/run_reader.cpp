@@ -239,7 +239,7 @@ void check_other_tables(const Run& run) {
   for_rows_where_recorded(run, run_file::kStates, [&](std::string_view line) { check_state(line); });
 }
 
-/// Says why a folder without a scene is not that of a run.
+/// Returns the reason why a folder without a scene is not the folder of a run.
 std::string what_is_missing(const std::filesystem::path& folder) {
   std::error_code error;
   const auto status = std::filesystem::status(folder, error);
