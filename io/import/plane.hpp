@@ -35,7 +35,7 @@ struct SourceFloe {
   bool is_at_180 = false;
 };
 
-/// What a file says about its coordinate system.
+/// The statement of a file about its coordinate system.
 struct FilePlace {
   std::string system;  ///< coordinate system that the file names, as GDAL knows it; empty: it names none
   StatedPlace stated;  ///< place on the Earth that the file states, if Polynya wrote it

@@ -43,7 +43,8 @@ struct ProjectedLine {
   bool is_closed = false;  ///< true: a ring, with an edge from the last point to the first
 };
 
-// To transform lines: make each with line_in(), call project_vertices(), then add_points(), and take each image_of().
+// Lines are transformed in four calls: line_in() makes each, then project_vertices(), add_points(), and image_of() of
+// each.
 
 /// Returns a line in the form that project_vertices() expects, without images yet. `points` are in `frame`; a ring may
 /// repeat its first point at its end, and the result does not. In degrees its longitudes are made continuous (no jump

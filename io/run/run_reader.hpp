@@ -192,8 +192,7 @@ std::vector<double> frame_times_until(const Run& run, double time);
 
 /// The frames of a run that a user selects, so that exports and pages of long runs become shorter.
 struct FrameSelection {
-  /// Of the frames from `from` to `until`, only the first, each n-th after it, and the last one are selected. At
-  /// least 1.
+  /// The first of the frames from `from` to `until`, each n-th after it, and the last one are selected. At least 1.
   int every = 1;
   double from = -std::numeric_limits<double>::infinity();  ///< first time [s]
   double until = std::numeric_limits<double>::infinity();  ///< last time [s]
