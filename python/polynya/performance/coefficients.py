@@ -29,8 +29,8 @@ NOTHING = {
     ice_scenes.PACK: "Compared with published curves only for floes of 15 m, 0.5 m thick, at 1 m/s, covers 0.3 to "
                      "0.9 (docs/validation.md, \"Pack ice\"): between Colbourne's slender and blunt ships from cover "
                      "0.5 on.",
-    ice_scenes.LEVEL: "Compared with published formulas in ice up to 0.5 m thick and up to 2 m/s, and with ten tests of "
-                      "one ship, of which the means miss some (docs/validation.md, \"A ship in level ice\" and \"A "
+    ice_scenes.LEVEL: "Compared with published formulas in ice up to 0.5 m thick and up to 2 m/s, and with ten tests "
+                      "of one ship, of which the means miss some (docs/validation.md, \"A ship in level ice\" and \"A "
                       "ship that was measured\").",
 }
 
