@@ -16,6 +16,7 @@ from tables import Table
 PAGE = "docs/management.md"
 STUDY = "../scenes/studies/ice-management.json"
 LOADS = ("management_ice_load_mean_N", "management_ice_load_q99_N")  # each with its ratio to the unmanaged load
+UNMANAGED = "not managed"
 LARGEST, LOST = "management_largest_at_body_m", "management_ice_lost_share"
 
 
@@ -44,7 +45,7 @@ def ranking(runs):
         for measure, digits in zip(LOADS, (1, 0)):
             place = places[measure][name]
             row += [with_half(place["mean"], 1e-3, digits), ratio(place["left"])]
-        contacts = condition["contacts"].get(name)
+        contacts = condition["contacts"].get(name) if name != UNMANAGED else None  # there the icebreaker lies far away
         row += [with_half(means[LARGEST][name], 1, 0), f"{100 * means[LOST][name]['value']:.2f} %",
                 f"{contacts['closest']:.0f}" if contacts else ""]
         rows.append(row)
