@@ -1,6 +1,7 @@
 """A study's page: its pictures, its statistics, and the way from a case into the player."""
 import json
 import re
+import types
 
 import numpy
 
@@ -143,6 +144,19 @@ def test_labels_have_their_units():
     assert pictures.label_of("mean_speed_m_per_s") == ("mean speed [m/s]", 1)
     assert pictures.label_of("floes[0].field.concentration") == ("concentration", 1)
     assert pictures.label_of("ships[0].position_m[1]") == ("position y [m]", 1)
+
+
+def test_small_loads_are_in_smaller_units():
+    assert pictures.label_for("mean_load_N", [5e4, numpy.nan]) == ("mean load [kN]", 1e-3)
+    assert pictures.label_for("mean_load_N", [5e4, -2e5]) == ("mean load [MN]", 1e-6)
+    assert pictures.label_for("width_m", []) == ("width [m]", 1)
+
+
+def test_a_parameter_that_was_set_together_with_another_divides_nothing():
+    columns = {"pilot": numpy.array(list("abab")), "x": numpy.array([1.0, 2, 1, 2]), "y": numpy.array([1.0, 1, 2, 2])}
+    study = types.SimpleNamespace(columns=columns, values_of=lambda name: sorted(set(columns[name].tolist())))
+    assert sample.independent(study, ["pilot", "x", "y"]) == ["pilot", "y"]
+    assert sample.independent(study, ["x", "pilot"]) == ["x"]
 
 
 def test_small_groups_are_not_fitted():

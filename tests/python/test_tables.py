@@ -10,7 +10,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "studies"))
 import tables  # noqa: E402
 
-PAGES = ("validation", "bow", "paper", "reliability", "performance", "brash")
+PAGES = ("validation", "bow", "paper", "reliability", "performance", "brash", "management")
 
 
 @pytest.mark.parametrize("old, new", [

@@ -213,11 +213,12 @@ def time_to(columns, target, never=None):
 
 
 def outcome(found, columns, collect):
-    """The outcome of the run in one word: "stuck" if the ship is slower than the stop speed in the last row, otherwise
-    "split" if a floe split, "bent" if a cusp broke by bending, or "pushed" if neither happened. The first of these that
-    holds counts, so a ship that broke ice and then stopped is "stuck". pictures.OUTCOMES has the same words, and no
-    colour for any other."""
-    if columns["speed_m_per_s"][-1] < collect.get("stop_speed_m_per_s", STOP_SPEED):
+    """The outcome of the run in one word: "stuck" if the ship, without a mooring, is slower than the stop speed in the
+    last row, otherwise "split" if a floe split, "bent" if a cusp broke by bending, or "pushed" if neither happened. The
+    first of these that holds counts, so a ship that broke ice and then stopped is "stuck". pictures.OUTCOMES has the
+    same words, and no colour for any other."""
+    is_moored = any(columns["surge_from_mooring_N"]) or any(columns["sway_from_mooring_N"])
+    if not is_moored and columns["speed_m_per_s"][-1] < collect.get("stop_speed_m_per_s", STOP_SPEED):
         return "stuck"
     return "split" if found["splits"] else "bent" if found["bends"] else "pushed"
 

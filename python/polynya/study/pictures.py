@@ -63,6 +63,14 @@ def label_of(measure, is_parameter=False):
     return name.replace("_", " ") + axis, 1.0
 
 
+def label_for(measure, values):
+    """Label and factor of label_of for these values [SI]; forces, moments and energies that are all below 0.1 of the
+    label's unit are in kN, kN m and kJ."""
+    label, factor = label_of(measure)
+    largest = numpy.nanmax(numpy.abs(values), initial=0) * factor
+    return (label.replace("[M", "[k"), 1e3 * factor) if "[M" in label and largest < 0.1 else (label, factor)
+
+
 def in_words(value, digits=6):
     """A number as text with that many significant digits; with the default, whole numbers have all their digits. An
     exponent is used only below 1e-4 and from 1e12 on. Other values, also texts and NaN, are converted by str(), in
@@ -122,7 +130,7 @@ def exceedance(sample, measure, group_by, folder):
     """Draws the values of a measure and both fits on Gumbel's probability paper, on which his distribution is a
     straight line, with a colour for each group. Grey groups have no fit, and a group without values is left out.
     Returns the name of the SVG. Drawing takes long, because each fit needs a bootstrap."""
-    label, factor = label_of(measure)
+    label, factor = label_for(measure, sample.columns[measure])
     lowest, handles, dashes = 0.5, [], {}
     lines = lines_of(sample, group_by)
     with page.Sheet(page.Page(), f"How often the {label.partition(' [')[0]} of a run exceeds a value") as sheet:
@@ -153,7 +161,7 @@ def means(sample, measure, against, group_by, folder):
     """Draws means of a measure with 95 % intervals over the parameter `against`, with a line for each group. Returns
     the name of the SVG. A single case is a point without an interval; a value of `against` without cases has no point.
     If `group_by` is `against`, all cases are one line."""
-    label, factor = label_of(measure)
+    label, factor = label_for(measure, sample.columns[measure])
     lines, handles = lines_of(sample, None if group_by == against else group_by), []
     with page.Sheet(page.Page(), f"Mean of the {label.partition(' [')[0]}", "with its 95 % interval") as sheet:
         axes = sheet.panels(1, 1)[0, 0]
@@ -167,7 +175,8 @@ def means(sample, measure, against, group_by, folder):
                     estimates.append(statistics.mean(values) if len(values) > 1 else single)
             middle = numpy.array([e.value for e in estimates]) * factor
             half = numpy.array([e.half_width for e in estimates]) * factor
-            axes.plot(xs, middle, "o-", ms=3, lw=1, color=colour)
+            style = "o-" if sample.has_numbers(against) else "o"  # words have no values between them
+            axes.plot(xs, middle, style, ms=3, lw=1, color=colour)
             many = numpy.isfinite(half)  # a single case has no interval
             axes.errorbar(numpy.array(xs)[many], middle[many], half[many], fmt="none", lw=1, capsize=2, ecolor=colour)
             if value is not None and colour != GREY:

@@ -116,14 +116,29 @@ class Choices:
     channels: int  #: largest number of cases whose channel is drawn
 
 
+def independent(sample, names):
+    """The names of parameters without those whose value follows from that of a parameter before them."""
+    kept = []
+    for name in names:
+        pairs = [len(set(zip(map(str, sample.columns[other]), map(str, sample.columns[name])))) for other in kept]
+        values = [len(sample.values_of(other)) for other in kept]
+        if not any(count == values_of_other for count, values_of_other in zip(pairs, values)):
+            kept.append(name)
+    return kept
+
+
 def choices_of(study, sample):
-    """The Choices of a study. By default means are drawn over the first varied parameter that is a number, groups are
-    formed by the first one with at most MOST_GROUPS values, and the map is over the first two with at most 60 values,
-    so that its cells stay large enough to see. What the study's "report" names takes precedence over these defaults.
-    Names that the table does not have are left out, and so are measures without numbers."""
-    given, varied = study.plan["report"], sample.varied()
+    """The Choices of a study. By default means are drawn over the first varied parameter that is a number, or else over
+    the first one, groups are formed by the first one with at most MOST_GROUPS values, and the map is over the first two
+    with at most 60 values, so that its cells stay large enough to see. A parameter that was set together with others
+    (`paired`), so that it follows from an earlier one, counts only if no other is left, because it would divide
+    nothing. What the study's "report" names takes precedence over these defaults. Names that the table does not have
+    are left out, and so are measures without numbers."""
+    given = study.plan["report"]
+    named = [given[key] for key in ("group_by", "against") if given.get(key) in sample.columns]
+    varied = independent(sample, [*dict.fromkeys([*named, *sample.varied()])])
     numeric = [name for name in varied if sample.has_numbers(name)]
-    against = given.get("against", numeric[0] if numeric else None)
+    against = given.get("against", numeric[0] if numeric else varied[0] if varied else None)
     few = [name for name in varied if 1 < len(sample.values_of(name)) <= MOST_GROUPS]
     group_by = given.get("group_by", few[0] if few else None)
     cells = [name for name in varied if len(sample.values_of(name)) <= 60]
