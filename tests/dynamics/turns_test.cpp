@@ -21,8 +21,8 @@ TEST(Turns, CosineAndSineAreRightToTheLastBit) {
     for (int i = -2000; i <= 2000; ++i) {
       const double angle = scale * i / 1237;
       const geometry::Rotation r = geometry::Rotation::by(angle);
-      ASSERT_LT(std::abs(r.cosine - std::cos(static_cast<long double>(angle))), 1.3e-16L) << angle;
-      ASSERT_LT(std::abs(r.sine - std::sin(static_cast<long double>(angle))), 1.3e-16L) << angle;
+      ASSERT_NEAR(r.cosine, static_cast<double>(std::cos(static_cast<long double>(angle))), 1.3e-16) << angle;
+      ASSERT_NEAR(r.sine, static_cast<double>(std::sin(static_cast<long double>(angle))), 1.3e-16) << angle;
     }
   }
   EXPECT_EQ(geometry::Rotation::by(0).cosine, 1);

@@ -119,7 +119,7 @@ def x_of(against, value):
 
 def has_axis(table, name):
     """Returns True if every value of a parameter has a place on the x axis of a figure."""
-    return all(x_of(name, value) is not None for value in different(table, name))
+    return all(x_of(name, value) is not None for value in table[name])
 
 
 def path_of(name):
