@@ -137,7 +137,7 @@ RunCheck check_run(const io::Run& run, std::optional<double> only_at = {},
                    const std::function<void(double)>& on_part = {});
 
 /// Return the results as `polynya inspect --check` prints them, for people and as JSON (docs/inspect.md). `scene` is
-/// that of the run; it gives the names of hulls.
+/// the scene of the run; it gives the names of hulls.
 std::string to_text(const RunCheck& check, const simulation::Scene& scene);
 std::string to_json_text(const RunCheck& check, const simulation::Scene& scene);
 

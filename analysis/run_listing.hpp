@@ -57,9 +57,9 @@ struct SizedFloe {
   double size = 0;  ///< √ of its whole area, which decides its class [m]
   double area = 0;  ///< area that is added to its class: the whole area, or the part of it in a channel [m²]
 };
-/// Returns classes with limits 1, 2, 5 × 10ⁿ m from that of the smallest floe to that of the largest, empty ones
-/// between them included; none without floes. The floes must be in ascending order of size, and all sizes positive.
-/// `polynya channel` counts pieces of brash by the same classes.
+/// Returns classes with limits 1, 2, 5 × 10ⁿ m, from the class of the smallest floe to the class of the largest,
+/// with empty classes between them; none without floes. The floes must be in ascending order of size, and all sizes
+/// positive. `polynya channel` counts pieces of brash by the same classes.
 std::vector<SizeClass> size_classes(const std::vector<SizedFloe>& floes);
 
 /// Return the number, area, extremes, median and classes of the sizes of the floes that exist at a time [s]. Of an even

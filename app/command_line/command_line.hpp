@@ -156,7 +156,7 @@ void add_python_commands(CommandLine& app, Commands& commands);
 /// Replaces this process by Python, which runs a command of the package polynya; the first word is the command's name.
 /// POLYNYA_PYTHON chooses the interpreter; otherwise /usr/bin/python3 is preferred to the first python3 on the search
 /// path, because it finds Debian's modules. Returns only if it fails (the package or Python is missing), with a message
-/// on stderr and kInputOutput. Otherwise the exit code is that of Python.
+/// on stderr and kInputOutput. Otherwise Python gives the exit code.
 int become_python(const std::vector<std::string>& words);
 
 /// Commit of the source from which the program is built; empty outside of git (cmake/PolynyaCommit.cmake).
@@ -170,8 +170,8 @@ struct ProgramText {
 };
 
 /// Parses the words and runs the chosen command, or prints help or version on stdout, or an error on stderr. Returns
-/// the exit code: that of the command, 0 after help or version, or kUsage if the words are wrong or name no command.
-/// `add_commands` adds the commands and returns them. `count` and `words` are those of main().
+/// the exit code: the command's own, 0 after help or version, or kUsage if the words are wrong or name no command.
+/// `add_commands` adds the commands and returns them. `count` and `words` are the arguments of main().
 int run_command_line(const ProgramText& text, const std::function<Commands(CommandLine&)>& add_commands, int count,
                      const char* const* words);
 

@@ -10,7 +10,7 @@
 
 namespace polynya::app {
 
-/// Reads the scene of a file, or that of stdin if the name is "-", with progress on stderr. Floe files that the scene
+/// Reads a scene from a file, or from stdin if the name is "-", with progress on stderr. Floe files that the scene
 /// names are searched for in the folder of the scene, for stdin in the working folder. `overrides` replace values of
 /// the scene (--set, --until, --seed and the like). If the scene is wrong, all its problems are printed, by
 /// print_problems() on stderr, or with `as_json` (`polynya validate --json`) as one array on stdout, and kSceneInvalid
