@@ -30,6 +30,17 @@ def _first_not_finite(value, path=""):
     return next(filter(None, (_first_not_finite(item, at) for at, item in below)), None)
 
 
+def _json_of(given):
+    """JSON text of a dict. Raises ValueError with the place of a number that is not finite."""
+    try:
+        return json.dumps(dict(given), default=_plain, allow_nan=False)
+    except ValueError:  # also for a dict that holds itself, in which the search raises RecursionError
+        found = _first_not_finite(given)
+        if found is None:
+            raise
+        raise ValueError(f"{found[0]}: found {found[1]}, allowed: a finite number") from None
+
+
 def scene_parts(given):
     """Returns (path, text, has_lines) of a scene. One of path and JSON text is empty. `has_lines` is False for a dict,
     whose text is written here, so that messages must not name its lines. A str with a brace is JSON text, any other one
@@ -38,15 +49,9 @@ def scene_parts(given):
     is not finite, or nested too deep. Whether the text is a valid scene is not checked here."""
     if isinstance(given, collections.abc.Mapping):
         try:
-            return "", json.dumps(dict(given), default=_plain, allow_nan=False), False
-        except (ValueError, RecursionError):
-            try:
-                found = _first_not_finite(given)
-            except RecursionError:
-                raise ValueError("the scene holds itself, or is nested too deep") from None
-            if found is None:
-                raise
-            raise ValueError(f"{found[0]}: found {found[1]}, allowed: a finite number") from None
+            return "", _json_of(given), False
+        except RecursionError:
+            raise ValueError("the scene holds itself, or is nested too deep") from None
     if isinstance(given, str) and "{" in given:
         return "", given, True
     if not isinstance(given, (str, os.PathLike)):

@@ -20,9 +20,7 @@ def in_hours(value):
 
 def force(value):
     """A force given in N, in N, kN or MN with three significant digits: 850 N, 12.5 kN, 3.28 MN. The unit follows from
-    the rounded magnitude, so 999.9 N is 1 kN. A negative force keeps its sign. From 1000 MN on the number has an
-    exponent."""
-    for factor, name in ((1e6, "MN"), (1e3, "kN")):
-        if abs(float(f"{value:.3g}")) >= factor:
-            return f"{value / factor:.3g} {name}" if abs(value) < 999.5 * factor else f"{value / factor:.0f} {name}"
-    return f"{value:.3g} N"
+    the rounded magnitude, so 999.9 N is 1 kN. A negative force keeps its sign."""
+    rounded = abs(float(f"{value:.3g}"))
+    factor, name = (1e6, "MN") if rounded >= 1e6 else (1e3, "kN") if rounded >= 1e3 else (1, "N")
+    return f"{plain(value / factor)} {name}"

@@ -140,16 +140,19 @@ def gumbel_parameters(rows):
     solves β = x̄ − Σ x e^(−x/β) / Σ e^(−x/β) [Johnson1995]. It is found by Newton's method for log β, starting from the
     method of moments. A row of equal values has the scale 0 and that value as its location."""
     rows = numpy.atleast_2d(rows)
+    location, scale = rows[:, 0].astype(float), numpy.zeros(len(rows))
+    is_spread = rows.min(axis=1) < rows.max(axis=1)
+    if is_spread.any():
+        location[is_spread], scale[is_spread] = _spread_gumbel_parameters(rows[is_spread])
+    return location, scale
+
+
+def _spread_gumbel_parameters(rows):
+    """The same for rows that each have different values."""
     low = rows.min(axis=1, keepdims=True)
     x = rows - low
     middle = x.mean(axis=1)
     scale = x.std(axis=1) * math.sqrt(6) / math.pi
-    is_spread = x.max(axis=1) > 0
-    if not is_spread.all():
-        location, spread_scale = rows[:, 0].copy(), numpy.zeros(len(rows))
-        if is_spread.any():
-            location[is_spread], spread_scale[is_spread] = gumbel_parameters(rows[is_spread])
-        return location, spread_scale
     for _ in range(100):  # far more steps than a row needs; a row that has not converged is not reported
         weights = numpy.exp(-x / scale[:, None])
         total = weights.sum(axis=1)

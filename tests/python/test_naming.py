@@ -2,6 +2,7 @@
 import json
 
 from polynya.naming import names_of, names_of_folders
+from polynya.readable import force
 
 PILOTS = [{"manage": {"body": "rig", "pattern": "circular", "distance_m": 250, "width_m": 160}},
           {"manage": {"body": "rig", "pattern": "racetrack", "distance_m": 250, "width_m": 160, "depth_m": 120}},
@@ -45,3 +46,8 @@ def test_folders_are_named_by_what_differs():
     assert names_of_folders(["x/cases/000012/run"]) == ["case 12"]
     assert names_of_folders(["p/q", "s/q/r", "s/t/r"]) == ["p/q", "q/r", "t/r"]
     assert names_of_folders(["a", "a"]) == ["a (1)", "a (2)"]
+
+
+def test_forces_have_three_digits_and_the_unit_of_the_rounded_value():
+    values = [850, -12512, 999.9, 999_600, 3.28e6, 1.2345e9, 0]
+    assert [force(value) for value in values] == ["850 N", "-12.5 kN", "1 kN", "1 MN", "3.28 MN", "1230 MN", "0 N"]

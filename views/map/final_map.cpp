@@ -318,18 +318,22 @@ class FinalMap {
   std::string text_;
 };
 
-/// Converts an SVG file to a PNG with 240 dots per inch by rsvg-convert. Returns false if it is not installed or fails.
-bool convert_to_png(const std::filesystem::path& svg, const std::filesystem::path& png) {
+/// Converts an SVG file of a size [bytes] to a PNG with 240 dots per inch by rsvg-convert. Returns false, and removes
+/// the PNG of an earlier picture, if the file is larger than kLargestConverted or the program is not installed or
+/// fails.
+bool convert_to_png(const std::filesystem::path& svg, std::size_t size, const std::filesystem::path& png) {
   constexpr std::size_t kLongest = std::size_t{1} << 30;  // [bytes]
   std::error_code error;
   const auto there = std::filesystem::symlink_status(png, error);
   if (exists(there) && !is_regular_file(there) && !is_symlink(there)) return false;
-  // It writes to a pipe, because a program that may outlive this one should not write to the folder.
-  const auto output =
-      io::run_child({"rsvg-convert", "--format=png", "--dpi-x=240", "--dpi-y=240", svg.string()}, kLongest);
-  const bool is_made = output && output->code == 0 && !output->out.empty();
-  if (is_made && io::write_whole_file(png, output->out, io::Durability::kSynced)) return true;
-  std::filesystem::remove(png, error);  // remove the file of an earlier picture
+  if (size <= kLargestConverted) {
+    // It writes to a pipe, because a program that may outlive this one should not write to the folder.
+    const auto output =
+        io::run_child({"rsvg-convert", "--format=png", "--dpi-x=240", "--dpi-y=240", svg.string()}, kLongest);
+    const bool is_made = output && output->code == 0 && !output->out.empty();
+    if (is_made && io::write_whole_file(png, output->out, io::Durability::kSynced)) return true;
+  }
+  std::filesystem::remove(png, error);
   return false;
 }
 
@@ -345,13 +349,8 @@ io::Result<std::string> draw_final_map(const io::Run& run) {
   if (const auto written = io::write_whole_file(file, svg, io::Durability::kSynced); !written)
     return io::fail(written.error());
   const auto png = run.folder / io::run_file::kFinalPng;
-  if (svg.size() > kLargestConverted) {
-    std::error_code error;
-    std::filesystem::remove(png, error);  // remove the file of an earlier picture
-    return std::string(io::run_file::kFinalSvg);
-  }
-  if (!convert_to_png(file, png)) return std::string(io::run_file::kFinalSvg);
-  return std::string(io::run_file::kFinalPng);
+  const bool is_converted = convert_to_png(file, svg.size(), png);
+  return std::string(is_converted ? io::run_file::kFinalPng : io::run_file::kFinalSvg);
 }
 
 }  // namespace polynya::views

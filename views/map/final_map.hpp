@@ -12,10 +12,10 @@ namespace polynya::views {
 std::string final_map(const io::Run& run);
 
 /// Writes the picture to the run's folder: final.svg, and final.png (240 dots per inch) if rsvg-convert is installed
-/// and succeeds, and the SVG has at most 20 MiB, which limits the time and memory of the conversion. Both files replace
-/// those of an earlier call. If the conversion fails, an earlier final.png is removed; it stays if the SVG is too
-/// large. Returns the name of the file to show the user, without its folder: final.png if it was written, otherwise
-/// final.svg. Fails, with the name of the file, only if final.svg cannot be written.
+/// and succeeds, and the SVG has at most 20 MiB, which limits the time and memory of the conversion. Both replace the
+/// files of an earlier call; a final.png that is not written anew is removed. Returns the name of the file to show the
+/// user, without its folder: final.png if it was written, otherwise final.svg. Fails, with the name of the file, only
+/// if final.svg cannot be written.
 io::Result<std::string> draw_final_map(const io::Run& run);
 
 }  // namespace polynya::views

@@ -7,7 +7,6 @@ conditions."""
 from __future__ import annotations
 
 import dataclasses
-import math
 from typing import Optional
 
 from ..readable import force
@@ -27,7 +26,7 @@ class Hits:
     hit: int  #: number of fields with a contact
     fields: int  #: number of fields in which contacts were measured
     load: float  #: largest load of all contacts, mean over a row of forces.csv [N]
-    closest: float  #: smallest distance between the waterlines in all fields [m]
+    closest: Optional[float]  #: smallest distance between the waterlines in all fields [m]; None: not measured
 
 
 def values_of(condition, measure, pattern):
@@ -37,13 +36,13 @@ def values_of(condition, measure, pattern):
 
 def hits_of(condition, pattern) -> Optional[Hits]:
     """Contacts of the body with ships under a pattern, as Hits; None if they were not measured. If loads were not
-    measured, `load` is 0; if distances were not, `closest` is infinite."""
+    measured, `load` is 0; if distances were not, `closest` is None."""
     hits = values_of(condition, "ship_hits", pattern).values()
     if not hits:
         return None
     loads = values_of(condition, "ship_load_peak_N", pattern).values()
     distances = values_of(condition, "ship_distance_m", pattern).values()
-    return Hits(sum(hit > 0 for hit in hits), len(hits), max(loads, default=0.0), min(distances, default=math.inf))
+    return Hits(sum(hit > 0 for hit in hits), len(hits), max(loads, default=0.0), min(distances, default=None))
 
 
 def has_arrived(condition):

@@ -9,6 +9,7 @@ import math
 
 from ..errors import InputError
 from ..naming import leaf_in_words, names_of, parsed
+from ..study.sample import follows
 from . import cautions, ranking
 
 # Beginning of the names of all measures of ice management in a study's table, as measures.measures_of() makes them.
@@ -67,17 +68,6 @@ def different(table, name):
 # Returns True if a cell of the table is a number. Truth values, texts, lists and objects are none.
 def is_number(value):
     return isinstance(parsed(value), (int, float)) and not isinstance(parsed(value), bool)
-
-
-def follows(table, name, others):
-    """Returns True if a parameter has only one value for each combination of the `others`, because it was set together
-    with them (`paired` of a study). It then defines no condition of its own. `others` are names of parameters."""
-    values = {}
-    for row in table:
-        key = tuple(str(row[other]) for other in others)
-        if values.setdefault(key, str(row[name])) != str(row[name]):
-            return False
-    return True
 
 
 def roles_of(plan, parameters, table):

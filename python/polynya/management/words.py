@@ -1,6 +1,5 @@
 """The ranking of patterns, as lines of text and as a table."""
 import csv
-import math
 
 from ..files import writing
 from ..readable import plain
@@ -119,7 +118,7 @@ def lines_of_ships(found):
     for condition in found.conditions:
         hits = {name: cautions.hits_of(condition, name) for name in found.patterns}
         rows += [[condition.name, name, f"{of.hit} of {of.fields}", cautions.force(of.load) if of.hit else "-",
-                  f"{plain(of.closest)} m" if math.isfinite(of.closest) else "-"] for name, of in hits.items() if of]
+                  "-" if of.closest is None else f"{plain(of.closest)} m"] for name, of in hits.items() if of]
     if len(rows) > 1:
         yield ""
         yield f"other ships and {found.body}: hits in the whole run, distance between the waterlines"
@@ -173,8 +172,7 @@ def write_ranking(found, path):
                     writer.writerow([condition.name, measure, rank, place.name, place.mean.count, place.mean.value,
                                      place.mean.half, *(place.left or ("", "", "")),
                                      benefit.value if benefit else "", benefit.half if benefit else "", *mean_lost,
-                                     *((hits.hit, hits.load, hits.closest if math.isfinite(hits.closest) else "")
-                                       if hits else ("", "", "")),
+                                     *((hits.hit, hits.load, hits.closest) if hits else ("", "", "")),
                                      "; ".join(place.like)])
 
 

@@ -120,8 +120,9 @@ def main(arguments, found, ice, fail, codes):
     """Makes the table for the requested regime and returns an exit code. `found` is as in described(), `ice` a
     formulas.Ice without thickness. `fail(code, message)` prints a message and returns the code. `codes` are the exit
     codes done, failed and stopped. Level ice has one run per point, because it has no random field of floes. Points
-    whose resistance is not positive are left out of the fit, which uses logarithms. If a run fails or the points do not
-    determine the fit, nothing is written, but finished runs are kept for the next call."""
+    whose resistance is not positive are left out of the fit, which uses logarithms. If a run fails, nothing is
+    written, but finished runs are kept for the next call. If the points do not determine the fit, the table is written
+    without it."""
     done, failed, stopped = codes
     name = regime_of(arguments)
     if arguments.list and name == ice_scenes.CHANNEL:
@@ -137,10 +138,12 @@ def main(arguments, found, ice, fail, codes):
     beam = found["ship"]["hull"]["beam_m"]
     try:
         rows = runs.rows(points, arguments.jobs, report_progress)
-        write_table(os.path.join(folder, f"{name}.csv"), rows)  # also if the fit fails
         with_resistance = [row for row in rows if row["resistance_N"] > 0]
         fitted = colbourne.fit(with_resistance, [row["resistance_N"] for row in with_resistance], beam, ice.density)
-    except (RunFailed, colbourne.NotEnough) as error:
+    except RunFailed as error:
+        return fail(failed, error)
+    except colbourne.NotEnough as error:
+        write_table(os.path.join(folder, f"{name}.csv"), rows)
         return fail(failed, error)
     except KeyboardInterrupt:
         return fail(stopped, "stopped; the same command goes on with the runs that are left")

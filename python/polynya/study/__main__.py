@@ -8,7 +8,7 @@ import sys
 
 from .. import command
 from ..program import program
-from .case import DONE, run_case, state_of
+from .case import DONE, run_case
 from .folder import PLAN, counted, numbers_of_list, open_study, planned_folder
 from .located_json import StudyError
 from .options import PROCESSORS, command_line
@@ -56,10 +56,9 @@ def run_cases(study, numbers, options):
     )
 
 
-# Runs the case --case in this process and returns the exit code of `polynya run`. For a case that has ended and is not
-# to run again, because its chunk is packed or because it failed and --retry-failed is not given, this is the code of
-# its result. (run() has unpacked the chunk before if the case must run again.) A finished case is left to run_case(),
-# which runs it again only if its run folder was removed and is to be kept.
+# Runs the case --case in this process and returns the exit code of `polynya run`. For a case in a
+# packed chunk this is the code of its result, because run() has unpacked the chunk before if the case must run again.
+# run_case() decides whether a case runs that has ended before.
 def run_one(study, options):
     number = options.case
     chunk = number // study.chunk_size
@@ -68,13 +67,9 @@ def run_one(study, options):
 
         result = archive.results_of(study, chunk)[number - chunk * study.chunk_size]
         return result.get("exit_code", DONE)
-    state, result = state_of(study.case_folder(number))
-    if state == "failed" and not options.retry_failed:
-        print(f"polynya study: case {number} has failed before; --retry-failed runs it again", file=sys.stderr)
-        return result["exit_code"]
     stop = Stop()
     stop.raise_on_signals()
-    code, message = run_case(study, number, stop.reader, options.keep)
+    code, message = run_case(study, number, stop.reader, options.keep, options.retry_failed)
     if message:
         print(f"polynya study: {message}", file=sys.stderr)
     if code == DONE and not options.quiet:

@@ -89,8 +89,7 @@ def unpack_to_run(study, numbers, keep, retries_failed):
     for chunk in chunks_of(study, numbers) if is_thinned or retries_failed else []:
         if not study.archive(chunk).exists():
             continue
-        mine = [result for number, result in zip(study.cases_of(chunk), results_of(study, chunk)) if number in numbers]
-        if is_thinned or any(result["state"] == "failed" for result in mine):
+        if is_thinned or any(number in numbers for number in failed_in(study, chunk)):
             unpack(study, chunk)
 
 
@@ -101,6 +100,12 @@ def remove_folders(study, chunk):
     else:
         for number in study.cases_of(chunk):
             shutil.rmtree(study.case_folder(number), ignore_errors=True)
+
+
+def failed_in(study, chunk):
+    """Numbers of the failed cases of a packed chunk. Raises StudyError as results_of() does."""
+    results = zip(study.cases_of(chunk), results_of(study, chunk))
+    return [number for number, result in results if result["state"] == "failed"]
 
 
 def results_of(study, chunk):

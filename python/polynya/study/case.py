@@ -60,12 +60,13 @@ def is_result(result):
     return kinds is not None and all(isinstance(result.get(key), kind) for key, kind in kinds.items())
 
 
-def run_case(study, number, stop=None, keep=None):
+def run_case(study, number, stop=None, keep=None, retries_failed=True):
     """Runs a case to its end and returns (exit code, message); the message is empty if there is nothing to say. A case
-    that failed before runs again; jobs.run_cases() skips those. When the file descriptor `stop` becomes readable, the
-    run is stopped with a checkpoint. `keep`, "all" or "summary", replaces the study's own setting. A finished case
-    returns at once, unless its run folder was removed and `keep` is "all": then it runs again. A case that another
-    process runs at the same time is refused with INPUT_OUTPUT. Raises OSError if the folder cannot be used."""
+    that failed before runs again if `retries_failed`; otherwise its code is returned. When the file descriptor `stop`
+    becomes readable, the run is stopped with a checkpoint. `keep`, "all" or "summary", replaces the study's own
+    setting. A finished case returns at once, unless its run folder was removed and `keep` is "all": then it runs again.
+    A case that another process runs at the same time is refused with INPUT_OUTPUT. Raises OSError if the folder cannot
+    be used."""
     if stop is not None and select.select([stop], [], [], 0)[0]:
         return STOPPED, ""
     folder = study.case_folder(number)
@@ -77,7 +78,9 @@ def run_case(study, number, stop=None, keep=None):
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
             return INPUT_OUTPUT, f"case {number}: another process runs it"
-        state, _ = state_of(folder)
+        state, result = state_of(folder)
+        if state == "failed" and not retries_failed:
+            return result.get("exit_code", FAILED), f"case {number} has failed before; --retry-failed runs it again"
         if state == "finished" and (keep == "summary" or (folder / RUN).exists()):
             return DONE, ""
         return carry(study, number, folder, lock, stop, keep)

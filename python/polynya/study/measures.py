@@ -47,8 +47,8 @@ def measure(run, collect, program):
     if ship is not None:
         found.update(measures_of_ship(ships[ship], collect))
         found["outcome"] = outcome(found, ships[ship], collect)
-    if collect.get("channel") and ship is not None:
-        found["channel_width_m"] = channel_width(run, ship, program)
+        if collect.get("channel"):
+            found["channel_width_m"] = channel_width(run, ship, program)
     if collect.get("management") is not None:
         from ..management import of_folder  # this needs numpy
 

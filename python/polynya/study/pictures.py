@@ -63,6 +63,11 @@ def label_of(measure, is_parameter=False):
     return name.replace("_", " ") + axis, 1.0
 
 
+def name_of(measure):
+    """The name of a measure in titles and captions: its label without the unit."""
+    return label_of(measure)[0].partition(" [")[0]
+
+
 def label_for(measure, values):
     """Label and factor of label_of for these values [SI]; forces, moments and energies that are all below 0.1 of the
     label's unit are in kN, kN m and kJ."""
@@ -133,7 +138,7 @@ def exceedance(sample, measure, group_by, folder):
     label, factor = label_for(measure, sample.columns[measure])
     lowest, handles, dashes = 0.5, [], {}
     lines = lines_of(sample, group_by)
-    with page.Sheet(page.Page(), f"How often the {label.partition(' [')[0]} of a run exceeds a value") as sheet:
+    with page.Sheet(page.Page(), f"How often the {name_of(measure)} of a run exceeds a value") as sheet:
         axes = sheet.panels(1, 1)[0, 0]
         for value, cases, colour in lines[::-1]:
             values = sample.numbers(measure, cases)
@@ -163,7 +168,7 @@ def means(sample, measure, against, group_by, folder):
     If `group_by` is `against`, all cases are one line."""
     label, factor = label_for(measure, sample.columns[measure])
     lines, handles = lines_of(sample, None if group_by == against else group_by), []
-    with page.Sheet(page.Page(), f"Mean of the {label.partition(' [')[0]}", "with its 95 % interval") as sheet:
+    with page.Sheet(page.Page(), f"Mean of the {name_of(measure)}", "with its 95 % interval") as sheet:
         axes = sheet.panels(1, 1)[0, 0]
         for value, cases, colour in lines[::-1]:
             xs, estimates = [], []

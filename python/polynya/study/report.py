@@ -44,11 +44,6 @@ def report(study, players):
     return code
 
 
-def name_of(measure):
-    """The name of a measure in a caption, without its unit."""
-    return pictures.label_of(measure)[0].partition(" [")[0]
-
-
 def draw(study, sample, choices, folder):
     """Draws the pictures of a sample.Sample into the folder, which it makes, as sample.Choices say. Returns (name of
     the SVG, caption) of each. There is no picture of means without a parameter along the x axis, no map without two
@@ -59,7 +54,7 @@ def draw(study, sample, choices, folder):
         made.append(
             (
                 pictures.exceedance(sample, measure, choices.group_by, folder),
-                f"Probability that a run's {name_of(measure)} exceeds a value, on Gumbel's probability paper.",
+                f"Probability that a run's {pictures.name_of(measure)} exceeds a value, on Gumbel's probability paper.",
             )
         )
     if choices.against:
@@ -67,7 +62,7 @@ def draw(study, sample, choices, folder):
             made.append(
                 (
                     pictures.means(sample, measure, choices.against, choices.group_by, folder),
-                    f"Mean of {name_of(measure)} with its 95 % interval.",
+                    f"Mean of {pictures.name_of(measure)} with its 95 % interval.",
                 )
             )
     if choices.map and "outcome" in sample.columns:

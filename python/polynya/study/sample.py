@@ -116,13 +116,22 @@ class Choices:
     channels: int  #: largest number of cases whose channel is drawn
 
 
+def follows(columns, name, others):
+    """Returns True if a parameter has only one value for each combination of the `others`, because it was set together
+    with them (`paired` of a study). It then divides the cases no further. `columns` maps names of parameters to their
+    values in all cases; `others` are such names. Values are compared as texts."""
+    values = {}
+    for value, *key in zip(*([str(cell) for cell in columns[of]] for of in (name, *others))):
+        if values.setdefault(tuple(key), value) != value:
+            return False
+    return True
+
+
 def independent(sample, names):
-    """The names of parameters without those whose value follows from that of a parameter before them."""
+    """The names of parameters without those that follow from one before them."""
     kept = []
     for name in names:
-        pairs = [len(set(zip(map(str, sample.columns[other]), map(str, sample.columns[name])))) for other in kept]
-        values = [len(sample.values_of(other)) for other in kept]
-        if not any(count == values_of_other for count, values_of_other in zip(pairs, values)):
+        if not any(follows(sample.columns, name, [other]) for other in kept):
             kept.append(name)
     return kept
 
@@ -130,10 +139,9 @@ def independent(sample, names):
 def choices_of(study, sample):
     """The Choices of a study. By default means are drawn over the first varied parameter that is a number, or else over
     the first one, groups are formed by the first one with at most MOST_GROUPS values, and the map is over the first two
-    with at most 60 values, so that its cells stay large enough to see. A parameter that was set together with others
-    (`paired`), so that it follows from an earlier one, counts only if no other is left, because it would divide
-    nothing. What the study's "report" names takes precedence over these defaults. Names that the table does not have
-    are left out, and so are measures without numbers."""
+    with at most 60 values, so that its cells stay large enough to see. A parameter that follows from an earlier one
+    (`paired`) is passed over. What the study's "report" names takes precedence over these defaults. Names that the
+    table does not have are left out, and so are measures without numbers."""
     given = study.plan["report"]
     named = [given[key] for key in ("group_by", "against") if given.get(key) in sample.columns]
     varied = independent(sample, [*dict.fromkeys([*named, *sample.varied()])])

@@ -7,7 +7,7 @@ import shutil
 import subprocess
 
 from ..program import program
-from .archive import results_of
+from .archive import failed_in
 from .case import DONE, state_of
 from .folder import list_of_numbers, write_atomically
 from .located_json import StudyError
@@ -61,7 +61,7 @@ def chunks_to_run(study, retries_failed=False):
     chunks = []
     for chunk in range(study.chunks):
         if study.archive(chunk).exists():
-            if retries_failed and any(result["state"] == "failed" for result in results_of(study, chunk)):
+            if retries_failed and failed_in(study, chunk):
                 chunks.append(chunk)
             continue
         if study.plan["archive"] or any(state_of(study.case_folder(n))[0] not in ended for n in study.cases_of(chunk)):
